@@ -66,7 +66,7 @@ def test_shell_scripts_are_clean():
     (["setup", "now"], "allowed is: ./navvi setup"),
     (["build", "--fast"], "[--asan] [--odr]"),
     (["parameters", "--xml"], "allowed is: ./navvi parameters [FILTER] [--csv]"),
-    (["parameters", "nope"], "allowed are parts of: cue_player feedback_node"),
+    (["parameters", "nope"], "and parts of: cue_player feedback_node"),
     (["world"], "missing: ACTION"),
     (["world", "lst"], "allowed are: list check show"),
     (["world", "show"], "missing: NAME|FILE"),

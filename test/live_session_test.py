@@ -114,7 +114,7 @@ class Session:
 def session(tmp_path_factory):
     session = Session(tmp_path_factory.mktemp("session"), "operator:=simulated", f"world:={WORLD}", "seed:=3",
                       "rviz:=true", "speech:=true", "limit:=240", "participant:=sub-01",
-                      "feedback/drive/expo:=0.2", "nav/replan/pause:=5", "feedback/speaker/pitch:=55")
+                      "feedback/drive/expo:=0.2", "nav/replan/hold_time:=5", "feedback/speaker/pitch:=55")
     try:
         session.watch()
         session.wait_for(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
@@ -147,7 +147,7 @@ def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert "trial_node has ended, and the session with it." in session.text()
     assert not re.search("died|cleanly|={20}", session.text())
     assert summary(trial)["participant"] == "sub-01"
-    assert summary(trial)["parameters"] == "feedback/drive/expo=0.2 nav/replan/pause=5 feedback/speaker/pitch=55"
+    assert summary(trial)["parameters"] == "feedback/drive/expo=0.2 nav/replan/hold_time=5 feedback/speaker/pitch=55"
     assert re.fullmatch(r"\d+\.\d+\.\d+(\+[0-9a-f]+(-dirty)?)?", summary(trial)["version"])
 
 

@@ -19,7 +19,8 @@ COLUMNS = ["parameter", "default", "allowed", "meaning"]
 
 
 def arguments(parser):
-    parser.add_argument("filter", nargs="?", default="", metavar="FILTER", help="only nodes whose name contains it, such as feedback.")
+    parser.add_argument("filter", nargs="?", default="", metavar="FILTER",
+                        help="only nodes whose name contains it, such as feedback, or else parameters that it tells of, such as turn.")
     parser.add_argument("--csv", action="store_true", help="as a table for a program.")
 
 
@@ -31,17 +32,23 @@ def run(args):
     if not programs() or not is_current(*programs()):
         build()
     nodes = [node for node in programs() if args.filter in node.name]
-    if not nodes:
-        fail(f"\"{args.filter}\" is in the name of no node; allowed are parts of: {' '.join(node.name for node in programs())}", 2)
+    rows_of = {node: rows for node in nodes or programs() if (rows := rows_in(node, "" if nodes else args.filter))}
+    if not rows_of:
+        fail(f"\"{args.filter}\" is in no parameter; allowed are words of these, and parts of: {' '.join(node.name for node in programs())}", 2)
     table = csv.writer(sys.stdout, lineterminator="\n")
     if args.csv:
         table.writerow(["node", *COLUMNS])
-    for node in nodes:
-        rows = json.loads(subprocess.run([str(node), "--parameters"], check=True, stdout=subprocess.PIPE).stdout)
+    for node, rows in rows_of.items():
         if args.csv:
             table.writerows([node.name, *(row[column] for column in COLUMNS)] for row in rows)
         else:
             print("\n".join(["", node.name, *map(sentence, rows)]))
+
+
+def rows_in(node, word):
+    """That have the word in their name or meaning."""
+    rows = json.loads(subprocess.run([str(node), "--parameters"], check=True, stdout=subprocess.PIPE).stdout)
+    return [row for row in rows if word.lower() in f"{row['parameter']} {row['meaning']}".lower()]
 
 
 def sentence(row):

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "navvi_config/json.hpp"
+#include "removed_keys.hpp"
 
 namespace navvi_config {
 namespace {
@@ -113,7 +114,8 @@ class Beginning : public YAML::EventHandler {
 /// keys that fields have, so that it can refuse all others.
 class YamlReader : public Visitor {
  public:
-  YamlReader(const YAML::Node& node, std::string source) : source_(std::move(source)) {
+  YamlReader(const YAML::Node& node, std::string source, Removed removed)
+      : source_(std::move(source)), removed_(removed) {
     push(node, "");
   }
 
@@ -131,6 +133,14 @@ class YamlReader : public Visitor {
     for (const auto& pair : level.node) {
       const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "(not a word)";
       if (!level.known.count(key)) {
+        if (removed_keys().count(level.prefix + key) != 0) {
+          if (removed_ == Removed::refused)
+            throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + key +
+                              "\" is of an earlier version, and its value is fixed now.");
+          std::cerr << "navvi: " << where(pair.first) << ": \"" << level.prefix << key
+                    << "\" is of an earlier version and is ignored.\n";
+          continue;
+        }
         const std::string meant = nearest(cited(key), level.known);
         throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + cited(key) +
                           "\" is unknown; " + (meant.empty() ? "" : "nearest is " + meant + "; ") +
@@ -239,6 +249,7 @@ class YamlReader : public Visitor {
   }
 
   std::string source_;
+  Removed removed_;
   std::vector<Level> levels_;
 };
 
@@ -353,8 +364,9 @@ void overlay(YAML::Node base, const YAML::Node& values) {
   }
 }
 
-void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source) {
-  YamlReader reader(node, source);
+void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source,
+                 Removed removed) {
+  YamlReader reader(node, source, removed);
   describe(reader);
   reader.finish();
 }

@@ -99,6 +99,23 @@ TEST(Reader, an_unknown_key_is_named_with_the_known_ones) {
       "are classes, curve.");
 }
 
+TEST(Reader, a_parameter_of_an_earlier_version_is_named_and_ignored_in_files_alone) {
+  Config config;
+  const YAML::Node before = YAML::Load("speed: 2\nmarkers: {path_width: 0.3}\nstale: 1");
+  testing::internal::CaptureStderr();
+  read(config, before, "test.yaml", Removed::ignored);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(config.speed, 2.0);
+  EXPECT_NE(said.find("test.yaml, line 2: \"markers\" is of an earlier version and is ignored."),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("line 3: \"stale\""), std::string::npos) << said;
+  EXPECT_EQ(refusal("stale: 1"),
+            "test.yaml, line 1: the key \"stale\" is of an earlier version, and its value is "
+            "fixed now.");
+  EXPECT_THROW(read(config, YAML::Load("sped: 1"), "test.yaml", Removed::ignored), ConfigError);
+}
+
 TEST(Reader, an_error_cites_no_more_of_a_file_than_tells_which_value_is_meant) {
   const std::string letters(1000, 'x');
   for (const std::string& said : {refusal("speed: " + letters), refusal(letters + ": 1"),

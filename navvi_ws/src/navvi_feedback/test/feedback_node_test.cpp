@@ -190,7 +190,7 @@ TEST_F(FeedbackNode, C6_a_stick_that_comes_too_late_or_by_another_clock_moves_no
 TEST_F(FeedbackNode, P3_obeys_no_parameter_that_is_set_while_it_runs) {
   const ros::NodeHandle node("feedback_node");
   node.setParam("drive/max_forward", 1.5);
-  node.setParam("drive/arm_hold", 0.0);
+  node.setParam("drive/dead_zone", 0.0);
   node.setParam("input", "pad");
   pass(0.5);
   stick_ = 1.0F;

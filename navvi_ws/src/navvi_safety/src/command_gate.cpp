@@ -20,18 +20,10 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(timeout, "timeout", Range{0.05, 0.25}, "s",
         "longest age of the last valid command, by wall clock and by sim clock");
-  visit(neutral_hold, "neutral_hold", Range{0.3, 5.0}, "s",
-        "how long the command must be neutral before the wheels move again");
-  visit(neutral_linear, "neutral_linear", Range{0.0, 0.1}, "m/s",
-        "a slower command counts as neutral");
-  visit(neutral_angular, "neutral_angular", Range{0.0, 0.1}, "rad/s",
-        "a slower command counts as neutral");
   visit(max_linear, "max_linear", Range{0.1, 3.0}, "m/s",
         "commands beyond are clamped and counted");
   visit(max_angular, "max_angular", Range{0.1, 6.0}, "rad/s",
         "commands beyond are clamped and counted");
-  visit(absurd_factor, "absurd_factor", Range{1.0, 100.0}, "",
-        "commands beyond this many times a limit are rejected");
   visit(driver, "driver", navvi_config::Any{}, "",
         "the node whose commands are taken, such as /feedback_node; those of any other are ignored "
         "and announced; empty: any node may drive, one at a time");
@@ -54,8 +46,8 @@ bool CommandGate::admit(const std::string& node, unsigned link, const Instant& n
 
 void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, const Instant& now) {
   expire(now);
-  if (!command || !within(command->linear, config_.max_linear * config_.absurd_factor) ||
-      !within(command->angular, config_.max_angular * config_.absurd_factor)) {
+  if (!command || !within(command->linear, config_.max_linear * config_.kAbsurdFactor) ||
+      !within(command->angular, config_.max_angular * config_.kAbsurdFactor)) {
     ++rejected_;
     bad_since_valid_ = true;
     return;
@@ -64,8 +56,8 @@ void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, c
   command_.angular = std::clamp(command->angular, -config_.max_angular, config_.max_angular);
   if (command_.linear != command->linear || command_.angular != command->angular) ++clamped_;
 
-  const bool neutral = std::abs(command_.linear) <= config_.neutral_linear &&
-                       std::abs(command_.angular) <= config_.neutral_angular;
+  const bool neutral = std::abs(command_.linear) <= config_.kNeutralLinear &&
+                       std::abs(command_.angular) <= config_.kNeutralAngular;
   if (!neutral) {
     neutral_since_.reset();
   } else if (!neutral_since_) {
@@ -87,8 +79,8 @@ navvi_types::Velocity CommandGate::update(const Instant& now) {
   expire(now);
   if (!last_valid_) return {};
   if (state_ != State::running) {
-    const bool held = neutral_since_ && now.wall - neutral_since_->wall >= config_.neutral_hold &&
-                      now.sim - neutral_since_->sim >= config_.neutral_hold;
+    const bool held = neutral_since_ && now.wall - neutral_since_->wall >= config_.kNeutralHold &&
+                      now.sim - neutral_since_->sim >= config_.kNeutralHold;
     if (!held) return {};
     state_ = State::running;
     reason_ = Reason::none;

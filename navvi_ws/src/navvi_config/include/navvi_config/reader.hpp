@@ -34,16 +34,22 @@ using Describe = std::function<void(Visitor&)>;
 /// Puts `values` into the map `base`: maps are joined, anything else is replaced.
 void overlay(YAML::Node base, const YAML::Node& values);
 
-void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source);
+/// What becomes of parameters of earlier versions: files and records of before are read without
+/// them, and a line on stderr names each.
+enum class Removed { refused, ignored };
+
+void read_fields(const Describe& describe, const YAML::Node& node, const std::string& source,
+                 Removed removed = Removed::refused);
 
 /// Overlays `config` with the keys of `node`; keys that are absent keep their value.
 /// \param source  name of the node in error sentences, such as a file's path
 /// \throws ConfigError on an unknown or repeated key, a wrong type, or a value out of range;
 /// `config` is then unchanged.
 template <typename Config>
-void read(Config& config, const YAML::Node& node, const std::string& source) {
+void read(Config& config, const YAML::Node& node, const std::string& source,
+          Removed removed = Removed::refused) {
   Config candidate = config;
-  read_fields([&](Visitor& visit) { candidate.describe(visit); }, node, source);
+  read_fields([&](Visitor& visit) { candidate.describe(visit); }, node, source, removed);
   config = std::move(candidate);
 }
 

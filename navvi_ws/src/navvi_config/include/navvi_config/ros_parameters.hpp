@@ -21,7 +21,7 @@ namespace navvi_config {
 template <typename Config>
 [[nodiscard]] Config load(const ros::NodeHandle& node) {
   Config config;
-  read(config, parameters(node), "the parameters of " + node.getNamespace());
+  read(config, parameters(node), "the parameters of " + node.getNamespace(), Removed::ignored);
   return config;
 }
 

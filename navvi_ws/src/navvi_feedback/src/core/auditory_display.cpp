@@ -50,7 +50,7 @@ std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
   for (sounds::Play& play : plays) {
     if (!now.voice_busy || &config_.family_of(play.earcon) == &config_.hit) continue;
     if (play.earcon == Earcon::turn) play.earcon = Earcon::turn_click;
-    play.volume *= config_.under_words;
+    play.volume *= config_.kUnderWords;
   }
   return plays;
 }

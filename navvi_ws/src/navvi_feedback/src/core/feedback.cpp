@@ -74,7 +74,7 @@ struct Feedback::Deciders {
 Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& phrases)
     : config_(config),
       deciders_(new Deciders(config, cues::Phrases(phrases, config.cues.wording))),
-      senses_(config.stale) {}
+      senses_(config.kStale) {}
 
 Feedback::~Feedback() = default;
 

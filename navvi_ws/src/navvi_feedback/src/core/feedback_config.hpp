@@ -12,7 +12,9 @@ namespace navvi_feedback::core {
 
 /// The parameters of all that decides on the person's side.
 struct FeedbackConfig {
-  double stale = 0.8;           ///< s
+  /// s, guidance, proximity, odometry (wall clock) or the robot's pose (ROS time) older than this
+  /// is lost
+  static constexpr double kStale = 0.8;
   std::string lesson = "none";  ///< as Teacher takes it; of a run, not of a person, as the next two
   std::string questions;        ///< path, likewise
   bool locked = false;          ///< the menu offers neither goals nor settings

@@ -641,7 +641,7 @@ TEST_F(FeedbackTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_stil
   for (const sounds::Play& play : plays_) {
     const bool hit = play.earcon == sounds::Earcon::hit_shelf;
     const double full = config.family_of(play.earcon).volume;
-    EXPECT_NEAR(play.volume, hit ? full : config.under_words * full, 1e-9);
+    EXPECT_NEAR(play.volume, hit ? full : config.kUnderWords * full, 1e-9);
   }
 }
 

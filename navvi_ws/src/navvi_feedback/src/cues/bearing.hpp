@@ -30,7 +30,7 @@ class Bearing {
   /// The robot turns on the spot, or has not settled yet.
   [[nodiscard]] bool turns(double time) const;
   /// The person has not moved the stick for some seconds.
-  [[nodiscard]] bool idle(double time) const { return time - last_commanded_ > config_.idle; }
+  [[nodiscard]] bool idle(double time) const { return time - last_commanded_ > config_.kIdle; }
   [[nodiscard]] Rounding rounding() const { return rounding_; }
 
  private:

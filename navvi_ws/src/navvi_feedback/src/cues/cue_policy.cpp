@@ -29,12 +29,12 @@ bool asks_to_release(const Utterance& utterance) {
 
 CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
     : config_(config),
-      links_(config.patience),
-      notices_(config.last_words),
+      links_(config.kPatience),
+      notices_(config.kLastWords),
       stuck_(config),
       state_(config),
       near_(config.near),
-      halt_(config.route.repeat_direction),
+      halt_(config.route.kRepeatDirection),
       route_(config.route),
       phrasing_(std::move(phrases), config.same_text) {}
 
@@ -92,14 +92,14 @@ Utterances CuePolicy::near(const Tick& tick) {
   const bool drives =
       measured && (std::abs(measured->linear) > kMoving || std::abs(measured->angular) > kMoving);
   const bool straight =
-      config_.route.join && tick.time - phrasing_.straight_said() < config_.recover;
+      config_.route.join && tick.time - phrasing_.straight_said() < config_.kRecover;
   return near_.update(tick.now, tick.follows || drives, {straight, halt_.fresh(tick.time)},
                       tick.time);
 }
 
 void CuePolicy::remind(const Tick& tick, const Utterances& told) {
   if (!tick.now.contacts.empty() || std::any_of(told.begin(), told.end(), makes_stop))
-    route_.remind(tick.time + config_.recover);
+    route_.remind(tick.time + config_.kRecover);
 }
 
 /// Whoever hears a word to stop waits for "go on", be it an answer. \return whether one is said

@@ -21,9 +21,9 @@ bool Leg::ends(const Guidance& guidance, double same) const {
 }
 
 Leg::News Leg::change_to(const Guidance& guidance, const RouteConfig& config) const {
-  if (!ends(guidance, config.same_corner)) return News::none;
+  if (!ends(guidance, config.kSameCorner)) return News::none;
   const bool rerouted = guidance.reroutes != seen->reroutes;
-  if (seen->distance <= config.turn_now && !rerouted)
+  if (seen->distance <= config.kTurnNow && !rerouted)
     return turn_told ? News::told_corner : News::corner;
   // Seen from one place at one instant: only the plan can have changed the hour.
   const double moved = navvi_types::wrap(guidance.waypoint_angle - seen->angle);
@@ -35,7 +35,7 @@ void Leg::advance(const Guidance& guidance, std::optional<int> next, const Route
   const News change = change_to(guidance, config);
   const bool reached = change == News::corner || change == News::told_corner;
   if (reached || (change == News::other_route && !at_corner())) news = change;
-  const bool other = ends(guidance, config.same_corner);
+  const bool other = ends(guidance, config.kSameCorner);
   if (other && turn_told && !reached) fell_away = !next;
   if (!seen || reached || (other && next != turn.hour)) turn_told = false;
   seen = {guidance.waypoint, guidance.waypoint_distance, guidance.waypoint_angle,

@@ -104,7 +104,7 @@ TEST_F(LegTest, has_no_news_for_a_person_who_stands_and_no_direction_without_a_p
   EXPECT_EQ(leg_.said.hour, 12);
   leg_.pause();
   EXPECT_FALSE(leg_.said.hour);
-  EXPECT_FALSE(leg_.ends(way(99.0, 1.0), config_.same_corner)) << "nothing was seen before";
+  EXPECT_FALSE(leg_.ends(way(99.0, 1.0), config_.kSameCorner)) << "nothing was seen before";
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ bool in_the_way(const Observation& now, const Eigen::Vector2d& point, bool close
 }  // namespace
 
 NearCues::Level NearCues::level(double gap, Level said) const {
-  const double close = config_.close + (said == Level::close ? config_.hysteresis : 0.0);
-  const double near = config_.distance + (said != Level::none ? config_.hysteresis : 0.0);
+  const double close = config_.kClose + (said == Level::close ? config_.kHysteresis : 0.0);
+  const double near = config_.distance + (said != Level::none ? config_.kHysteresis : 0.0);
   if (gap <= close && gap <= near) return Level::close;
   return gap <= near ? Level::near : Level::none;
 }
@@ -30,7 +30,7 @@ NearCues::Level NearCues::level(double gap, Level said) const {
 NearCues::Level NearCues::observe(Watch& watch, double gap, double time) const {
   const Level reached = level(gap, watch.said);
   if (reached >= watch.said) watch.last_near = time;
-  if (reached < watch.said && time - watch.last_near > config_.forget) watch.said = reached;
+  if (reached < watch.said && time - watch.last_near > config_.kForget) watch.said = reached;
   return reached;
 }
 
@@ -94,7 +94,7 @@ void NearCues::consider_things(const Observation& now, bool straight, double tim
                                std::optional<Candidate>& best) {
   for (const Contact& contact : now.contacts) things_[contact.id] = {Level::close, time};
   for (auto thing = things_.begin(); thing != things_.end();)
-    thing = time - thing->second.last_near > config_.forget ? things_.erase(thing) : ++thing;
+    thing = time - thing->second.last_near > config_.kForget ? things_.erase(thing) : ++thing;
   for (const NearThing& thing : now.nearby) {
     if (is_structure(thing.thing_class)) continue;
     const auto known = things_.find(thing.id);

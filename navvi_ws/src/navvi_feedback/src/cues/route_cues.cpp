@@ -20,7 +20,7 @@ constexpr double kSameGoal = 0.5;
 Utterances RouteCues::update(const Observation& now, bool halted, double time) {
   const Guidance& guidance = *now.guidance;
   by_sound_ = now.sounds.turn;
-  if (leg_.ends(guidance, config_.same_corner)) bearing_.begin_leg();
+  if (leg_.ends(guidance, config_.kSameCorner)) bearing_.begin_leg();
   bearing_.observe(now, halted, time);
   if (!bearing_.hour() || !std::isfinite(guidance.waypoint_distance)) return {};
   const Look look{config_, now, bearing_, time};

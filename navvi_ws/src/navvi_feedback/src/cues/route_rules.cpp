@@ -11,7 +11,7 @@ namespace {
 /// Near and roughly ahead, as the person was told, and driven to.
 bool at_hand(const Look& look, const Leg& leg) {
   const auto ahead = [](std::optional<int> hour) { return hour && (*hour >= 11 || *hour == 1); };
-  return look.guidance().waypoint_distance < look.config.at_hand && ahead(look.hour()) &&
+  return look.guidance().waypoint_distance < look.config.kAtHand && ahead(look.hour()) &&
          ahead(leg.said.hour) && !look.bearing.idle(look.time);
 }
 
@@ -45,17 +45,17 @@ Told cancel_turn(const Look& look, Leg& leg) {
 Told announce_turn(const Look& look, Leg& leg) {
   const std::optional<int> turn = turn_within_reach(look);
   if (!turn || leg.turn_told || look.hour() != 12) return std::nullopt;
-  if (look.guidance().waypoint_distance <= look.config.turn_now) return std::nullopt;
-  const bool again = turn == leg.turn.hour && look.time - leg.turn.time < look.config.same_turn;
-  if (again || look.time - leg.said.time < look.config.pause) return std::nullopt;
+  if (look.guidance().waypoint_distance <= look.config.kTurnNow) return std::nullopt;
+  const bool again = turn == leg.turn.hour && look.time - leg.turn.time < look.config.kSameTurn;
+  if (again || look.time - leg.said.time < look.config.kPause) return std::nullopt;
   const Utterance way = *direction(look.guidance(), look.bearing);
   return Utterances{announce(CueKind::turn_ahead, way, *turn, look, leg)};
 }
 
 Told urge(const Look& look, Leg& leg) {
-  if (look.hour() != 12 || !leg.hand.due(look.time, 2.0 * look.config.repeat_direction))
+  if (look.hour() != 12 || !leg.hand.due(look.time, 2.0 * look.config.kRepeatDirection))
     return std::nullopt;
-  const double free = std::min(look.config.in_the_way, look.guidance().waypoint_distance);
+  const double free = std::min(look.config.kInTheWay, look.guidance().waypoint_distance);
   if (anything_ahead(look.now.nearby, free)) return std::nullopt;
   // The sound of a turn that it made has ended.
   if (leg.said.hour != 12) return tell_way(look, leg);
@@ -83,7 +83,7 @@ Utterances turn_now(const Look& look, Leg& leg) {
   else
     way.kind = CueKind::turn_now;
   if (const auto turn = turn_within_reach(look);
-      turn && look.config.join && look.guidance().waypoint_distance < look.config.next_turn)
+      turn && look.config.join && look.guidance().waypoint_distance < look.config.kNextTurn)
     way.also = {announce(CueKind::turn_ahead, way, *turn, look, leg)};
   leg.heard(look.hour(), look.time);
   return {way};
@@ -114,7 +114,7 @@ CueKind route_kind(const Look& look, const Leg& leg, CueKind told, CueKind block
 
 std::optional<bool> direction_due(const Look& look, const Leg& leg) {
   if (!leg.said.hour) return true;
-  if (look.time - leg.said.time < look.config.pause) return false;
+  if (look.time - leg.said.time < look.config.kPause) return false;
   if (look.hour() == 12 && hushed(look, leg)) return false;
   if (leg.reminder && look.time >= *leg.reminder) return true;
   return at_hand(look, leg) ? std::optional(false) : std::nullopt;
@@ -135,8 +135,8 @@ bool worth_words(const Look& look, int hour) {
 
 bool hushed(const Look& look, const Leg& leg) {
   if (!look.config.join || !leg.reminder) return false;
-  if (look.time >= *leg.reminder + look.config.still_ahead) return false;
-  const double free = std::min(look.config.in_the_way, look.guidance().waypoint_distance);
+  if (look.time >= *leg.reminder + look.config.kStillAhead) return false;
+  const double free = std::min(look.config.kInTheWay, look.guidance().waypoint_distance);
   return look.time < *leg.reminder || anything_ahead(look.now.nearby, free);
 }
 

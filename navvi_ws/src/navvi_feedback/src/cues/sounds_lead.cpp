@@ -49,14 +49,14 @@ Told tell_stray(const Look& look, Leg& leg) {
 bool leg_due(const Look& look, const Leg& leg) {
   const double since = look.time - leg.said.time;
   if (look.bearing.idle(look.time))
-    return leg.at_corner() || since >= 2.0 * look.config.repeat_direction;
-  const bool goes_on = look.hour() == 12 && since >= look.config.repeat_straight;
-  return (leg.at_corner() || goes_on) && look.guidance().waypoint_distance >= look.config.long_leg;
+    return leg.at_corner() || since >= 2.0 * look.config.kRepeatDirection;
+  const bool goes_on = look.hour() == 12 && since >= look.config.kRepeatStraight;
+  return (leg.at_corner() || goes_on) && look.guidance().waypoint_distance >= look.config.kLongLeg;
 }
 
 Told tell_direction(const Look& look, Leg& leg) {
   // The sound leads anyway, and a word to stop may follow.
-  const double free = std::min(look.config.coming, look.guidance().waypoint_distance);
+  const double free = std::min(look.config.kComing, look.guidance().waypoint_distance);
   if (look.hour() == 12 && mover_ahead(look.now.nearby, free)) return std::nullopt;
   const bool due = direction_due(look, leg).value_or(leg_due(look, leg));
   return due ? Told(tell_way(look, leg)) : std::nullopt;

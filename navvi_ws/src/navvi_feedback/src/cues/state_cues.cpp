@@ -73,7 +73,7 @@ bool StateCues::due(const Tick& tick, std::optional<double> halted) const {
   if (tick.time - since_ < hold(tick, halted)) return false;
   if (lost_) return tick.time - *lost_ >= kTryAgain;
   const bool pushed = awaited_ && tick.now.stick_held_unarmed;
-  const double pause = pushed ? kHeldBack : config_.problem_repeat;
+  const double pause = pushed ? kHeldBack : config_.kProblemRepeat;
   return !said_ || (!said_once(*problem_) && tick.time - *said_ >= pause);
 }
 
@@ -90,7 +90,7 @@ double StateCues::hold(const Tick& tick, std::optional<double> halted) const {
   }
   const bool starting = problem_ == CueKind::welcome ||
                         (!led_ && (problem_ == CueKind::no_map || problem_ == CueKind::pose_stale));
-  return starting ? config_.starting : config_.state_hold;
+  return starting ? config_.kStarting : config_.state_hold;
 }
 
 }  // namespace navvi_feedback::cues

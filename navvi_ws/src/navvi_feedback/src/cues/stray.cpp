@@ -16,9 +16,9 @@ bool drives_on(const Observation& now) { return now.measured && now.measured->li
 
 std::optional<CueKind> straying(const Observation& now, std::optional<CueKind> was,
                                 const StrayConfig& config) {
-  if (drives_on(now) && std::abs(now.guidance->steer_angle) > config.wrong_way_degrees * kDegree)
+  if (drives_on(now) && std::abs(now.guidance->steer_angle) > config.kWrongWayDegrees * kDegree)
     return CueKind::wrong_way;
-  const double limit = was == CueKind::off_path ? config.on_path : config.off_path;
+  const double limit = was == CueKind::off_path ? config.kOnPath : config.kOffPath;
   return now.guidance->path_offset > limit ? std::optional(CueKind::off_path) : std::nullopt;
 }
 
@@ -28,8 +28,8 @@ void Stray::observe(const Observation& now, const StrayConfig& config, double ti
 }
 
 bool Stray::due(const Observation& now, const StrayConfig& config, double time) const {
-  return kind && time - since >= config.after && drives_on(now) &&
-         (!said || time - *said >= config.repeat);
+  return kind && time - since >= config.kAfter && drives_on(now) &&
+         (!said || time - *said >= config.kRepeat);
 }
 
 }  // namespace navvi_feedback::cues

@@ -72,10 +72,10 @@ Utterance boxed_in(const std::vector<NearThing>& nearby) {
 
 Utterances Stuck::update(const Observation& now, bool follows, double time) {
   // Commands near the thresholds may well move the robot more slowly than these.
-  const bool commanded = std::abs(now.commanded.linear) > 2.0 * config_.stuck_linear ||
-                         std::abs(now.commanded.angular) > 2.0 * config_.stuck_angular;
-  const bool still = now.measured && std::abs(now.measured->linear) < config_.stuck_linear &&
-                     std::abs(now.measured->angular) < config_.stuck_angular;
+  const bool commanded = std::abs(now.commanded.linear) > 2.0 * config_.kStuckLinear ||
+                         std::abs(now.commanded.angular) > 2.0 * config_.kStuckAngular;
+  const bool still = now.measured && std::abs(now.measured->linear) < config_.kStuckLinear &&
+                     std::abs(now.measured->angular) < config_.kStuckAngular;
   const bool held =
       now.gate == DriveState::State::stopped || now.gate == DriveState::State::waiting;
   if (!commanded || !still || held) {
@@ -91,7 +91,7 @@ Utterances Stuck::update(const Observation& now, bool follows, double time) {
 }
 
 Utterance Stuck::words(const Observation& now, bool follows) const {
-  const double gap = config_.blocker_gap;
+  const double gap = config_.kBlockerGap;
   const NearThing* blocker = blocker_of(now, gap);
   if (!blocker) return {CueKind::stuck_unknown};
   Fillings fillings{{}, {}, blocker->thing_class, side_of(blocker->nearest)};

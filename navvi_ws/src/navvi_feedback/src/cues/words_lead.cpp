@@ -19,7 +19,7 @@ bool about_to_face(const Look& look, const Leg& leg) {
   if (told == 1 || told == 11) return false;
   const double angle = look.guidance().steer_angle;
   // Turning left makes what lies ahead wander clockwise.
-  const double soon = angle + look.now.measured->angular * look.config.straight_lead;
+  const double soon = angle + look.now.measured->angular * look.config.kStraightLead;
   const bool faces = std::abs(navvi_types::wrap(soon)) <= kHour / 2.0;
   const bool crosses = angle * soon < 0.0;
   // A person who hears it more than an hour too early stops short and needs another cue.
@@ -29,8 +29,8 @@ bool about_to_face(const Look& look, const Leg& leg) {
 bool passes_within_reach(const Look& look) {
   const Guidance& guidance = look.guidance();
   const double across = guidance.waypoint_distance * std::sin(std::abs(guidance.waypoint_angle));
-  return std::abs(guidance.waypoint_angle) < kRoughlyAhead && across < look.config.reach &&
-         guidance.waypoint_distance < look.config.turn_now;
+  return std::abs(guidance.waypoint_angle) < kRoughlyAhead && across < look.config.kReach &&
+         guidance.waypoint_distance < look.config.kTurnNow;
 }
 
 Told end_turn(const Look& look, Leg& leg) {
@@ -69,12 +69,12 @@ bool correction_due(const Look& look, const Leg& leg) {
   const RouteConfig& config = look.config;
   const double angle = std::abs(look.guidance().steer_angle);
   const bool worse =
-      look.hour() != 12 && angle > std::abs(leg.said.angle) + config.worse_degrees * kDegree;
+      look.hour() != 12 && angle > std::abs(leg.said.angle) + config.kWorseDegrees * kDegree;
   if ((look.hour() != leg.said.hour || worse) && !passes_within_reach(look)) return true;
   const double since = look.time - leg.said.time;
-  if (look.bearing.idle(look.time)) return since >= 2.0 * config.repeat_direction;
+  if (look.bearing.idle(look.time)) return since >= 2.0 * config.kRepeatDirection;
   const bool ahead = look.hour() == 12 || look.bearing.leads_off();
-  return since >= (ahead ? config.repeat_straight : config.repeat_direction);
+  return since >= (ahead ? config.kRepeatStraight : config.kRepeatDirection);
 }
 
 Told tell_direction(const Look& look, Leg& leg) {

@@ -57,8 +57,6 @@ void MixerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::OneOf;
   using navvi_config::Range;
   visit(device, "device", Any{}, "", "name of the OpenAL device; empty for the default one");
-  visit(reopen, "reopen", Range{0.5, 60.0}, "s",
-        "between attempts to open a lost device; ten times that if there never was one");
   visit(hrtf, "hrtf", OneOf{{"auto", "on", "off"}}, "",
         "sound for two ears, so that ahead and behind differ; auto: with headphones");
   visit(volume, "volume", Range{0.1, 1.0}, "", "gain of all that is heard");

@@ -15,7 +15,8 @@ namespace navvi_feedback::devices {
 
 struct MixerConfig {
   std::string device;         ///< name of the OpenAL device; empty for the default one
-  double reopen = 2.0;        ///< s, between attempts to open a lost device, x10 if there was none
+  /// s, between attempts to open a lost device; ten times that if there never was one
+  double reopen = 2.0;
   std::string hrtf = "auto";  ///< sound for two ears: auto, on, off
   double volume = 1.0;        ///< of all that is heard, [0.1, 1]
 

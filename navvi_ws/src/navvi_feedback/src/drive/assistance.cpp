@@ -11,11 +11,6 @@ void AssistanceConfig::describe(navvi_config::Visitor& visit) {
         "before things in the way: leave the command as it is, slow it, or bring it to a stop");
   visit(least, "least", Range{0.05, 1.0}, "",
         "share of the command that slow leaves at least, and a stick that comes 0.3 s late");
-  visit(deceleration, "deceleration", Range{0.1, 5.0}, "m/s^2",
-        "the speed is kept to what this brings to rest before the thing");
-  visit(margin, "margin", Range{0.0, 1.0}, "m", "gap at which it has come to rest");
-  visit(half_lane, "half_lane", Range{0.3, 2.0}, "m",
-        "what is farther to the side is not in the way");
 }
 
 double Assistance::share(const navvi_types::Velocity& wanted,
@@ -26,10 +21,10 @@ double Assistance::share(const navvi_types::Velocity& wanted,
   double allowed = speed;
   for (const navvi_types::NearThing& thing : nearby) {
     const bool in_the_way =
-        thing.nearest.x() * wanted.linear > 0.0 && std::abs(thing.nearest.y()) <= config_.half_lane;
+        thing.nearest.x() * wanted.linear > 0.0 && std::abs(thing.nearest.y()) <= config_.kHalfLane;
     if (!in_the_way) continue;
-    const double room = std::max(0.0, thing.gap - config_.margin);
-    allowed = std::min(allowed, std::sqrt(2.0 * config_.deceleration * room));
+    const double room = std::max(0.0, thing.gap - config_.kMargin);
+    allowed = std::min(allowed, std::sqrt(2.0 * config_.kDeceleration * room));
   }
   const double share = allowed / speed;
   return config_.mode == "slow" ? std::max(share, config_.least) : share;

@@ -12,9 +12,10 @@ namespace navvi_feedback::drive {
 struct AssistanceConfig {
   std::string mode = "off";   ///< off, slow or stop
   double least = 0.25;        ///< share of the command that slow leaves
-  double deceleration = 0.8;  ///< m/s^2
-  double margin = 0.15;       ///< m, gap
-  double half_lane = 0.45;    ///< m
+  /// m/s^2, the speed is kept to what this brings to rest before the thing
+  static constexpr double kDeceleration = 0.8;
+  static constexpr double kMargin = 0.15;    ///< m, gap at which it has come to rest
+  static constexpr double kHalfLane = 0.45;  ///< m, what is farther to the side is not in the way
 
   void describe(navvi_config::Visitor& visit);
 };

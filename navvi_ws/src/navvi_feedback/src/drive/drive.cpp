@@ -28,12 +28,6 @@ void DriveConfig::describe(navvi_config::Visitor& visit) {
   visit(max_reverse, "max_reverse", Range{0.0, 1.5}, "m/s", "speed at full stick back");
   visit(max_turn, "max_turn", Range{0.1, 2.5}, "rad/s",
         "turning speed at full stick left or right");
-  visit(acceleration, "acceleration", Range{0.1, 10.0}, "m/s^2", "limit on speeding up");
-  visit(deceleration, "deceleration", Range{0.5, 20.0}, "m/s^2", "limit on slowing down");
-  visit(turn_acceleration, "turn_acceleration", Range{0.5, 40.0}, "rad/s^2",
-        "limit on changes of turning speed");
-  visit(arm_hold, "arm_hold", Range{0.3, 5.0}, "s",
-        "how long the stick must be neutral before it moves anything");
   visit.group("assistance", assistance);
 }
 
@@ -64,7 +58,7 @@ std::optional<Velocity> Drive::update(const std::optional<Stick>& stick, double 
   if (!armed_) {
     const bool neutral = wanted.x == 0.0 && wanted.y == 0.0;
     neutral_for_ = neutral ? neutral_for_ + dt : 0.0;
-    armed_ = neutral_for_ >= config_.arm_hold;
+    armed_ = neutral_for_ >= config_.kArmHold;
     return Velocity{};
   }
   const double linear = wanted.y * (wanted.y > 0.0 ? config_.max_forward : config_.max_reverse);

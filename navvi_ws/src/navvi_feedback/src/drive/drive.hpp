@@ -22,17 +22,18 @@ struct DriveConfig {
   double max_forward = 0.9;        // m/s
   double max_reverse = 0.5;        // m/s
   double max_turn = 1.2;           // rad/s
-  double acceleration = 1.2;       // m/s^2
-  double deceleration = 2.5;       // m/s^2
-  double turn_acceleration = 4.0;  // rad/s^2
-  double arm_hold = 0.3;           // s
+  double acceleration = 1.2;       ///< m/s^2, limit on speeding up
+  double deceleration = 2.5;       ///< m/s^2, limit on slowing down
+  double turn_acceleration = 4.0;  ///< rad/s^2, limit on changes of turning speed
+  /// s, how long the stick must be neutral before it moves anything
+  static constexpr double kArmHold = 0.3;
   AssistanceConfig assistance;
 
   void describe(navvi_config::Visitor& visit);
 };
 
 /// Turns the stick into a velocity. It begins disarmed, and disarms whenever the stick is lost;
-/// while disarmed it asks for zero. It arms once the stick was neutral for `arm_hold`, so a stick
+/// while disarmed it asks for zero. It arms once the stick was neutral for `kArmHold`, so a stick
 /// that is held, or stuck, when it appears moves nothing.
 class Drive {
  public:

@@ -42,7 +42,6 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
   visit(center, "center", Range{0.0, 5.0}, "m",
         "a thing whose nearest point lies less far to the side is felt in both motors");
   visit(curve, "curve", OneOf{{"log", "linear", "power"}}, "", "force over distance");
-  visit(exponent, "exponent", Range{0.2, 5.0}, "", "of the power curve");
   visit(rear, "rear", Range{0.0, 1.0}, "",
         "how much of its force a thing right behind the robot has; beside it, half way to all");
   visit(duck, "duck", Range{0.0, 1.0}, "",

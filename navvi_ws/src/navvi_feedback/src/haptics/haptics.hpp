@@ -25,7 +25,7 @@ struct HapticsConfig {
   double range = 5.0;   // m
   double center = 1.0;  // m
   std::string curve = "power";
-  double exponent = 2.0;
+  double exponent = 2.0;  ///< of the power curve
   double rear = 0.3;
   double duck = 0.3;
   bool rest_at_goal = true;

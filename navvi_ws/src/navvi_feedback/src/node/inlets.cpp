@@ -23,7 +23,7 @@ Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide&
       guide_(guide),
       devices_(devices),
       beat_(std::move(beat)),
-      stale_(config.feedback->stale),
+      stale_(config.feedback->kStale),
       tf_listener_(tf_, config.odom_frame) {
   subscribe_to_hands();
   subscribe_to_robot();

@@ -16,7 +16,6 @@ void PersonConfig::describe(navvi_config::Visitor& visit) {
   feedback.describe(visit);
   visit.group("speaker", speaker);
   visit.group("mixer", mixer);
-  visit.group("markers", markers);
 }
 
 void NodeConfig::describe(navvi_config::Visitor& visit) {

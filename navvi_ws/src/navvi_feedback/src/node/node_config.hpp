@@ -6,7 +6,6 @@
 #include "devices/mixer.hpp"
 #include "devices/speaker.hpp"
 #include "lockstep/guide_values.hpp"
-#include "picture/markers.hpp"
 
 namespace navvi_feedback::node {
 
@@ -17,7 +16,6 @@ struct PersonConfig {
   lockstep::GuideConfig feedback;
   devices::SpeakerConfig speaker;
   devices::MixerConfig mixer;
-  picture::MarkersConfig markers;
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -17,7 +17,7 @@ std::int64_t stamp() { return navvi_types::to_ns(ros::Time::now()); }
 }  // namespace
 
 Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands)
-    : motors_driver_(config.motors), markers_config_(config.markers) {
+    : motors_driver_(config.motors) {
   cmd_vel_ = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   motors_ = node.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
   cues_ = node.advertise<navvi_msgs::Cue>("navvi/cues", 100);
@@ -72,8 +72,7 @@ void Outlets::show(const std::optional<Guidance>& guidance,
   markers_time_ = time;
   const bool turn = order_.stage == CueStage::started && order_.kind() == CueKind::turn_ahead;
   visualization_msgs::MarkerArray markers =
-      picture::guide_markers(markers_config_, guidance, path, words,
-                             turn ? order_.text : "");
+      picture::guide_markers(guidance, path, words, turn ? order_.text : "");
   if (markers.markers == shown_.markers) return;
   shown_ = markers;
   picture::stamp(markers, ros::Time::now());

@@ -43,7 +43,6 @@ class Outlets {
 
  private:
   std::string motors_driver_;
-  picture::MarkersConfig markers_config_;
   ros::Publisher cmd_vel_, joy_, motors_, goals_, requests_, cues_, orders_,
       markers_, diagnostics_;
   std::optional<double> markers_time_;  ///< s

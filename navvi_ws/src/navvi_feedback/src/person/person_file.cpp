@@ -38,7 +38,7 @@ YAML::Node PersonFile::load() const {
   std::error_code error;
   if (!fs::exists(path_, error) && !error) return YAML::Node(YAML::NodeType::Map);
   const YAML::Node values = navvi_config::load_yaml(path_);
-  navvi_config::read_fields(describe_, values, path_.string());
+  navvi_config::read_fields(describe_, values, path_.string(), navvi_config::Removed::ignored);
   return values.IsMap() ? values : YAML::Node(YAML::NodeType::Map);
 }
 

@@ -19,6 +19,13 @@ constexpr Color kPurple{0.80F, 0.30F, 1.00F};
 constexpr Color kRed{1.00F, 0.15F, 0.15F};
 constexpr Color kWhite{1.00F, 1.00F, 1.00F};
 
+constexpr double kPathWidth = 0.22;   // m
+constexpr double kOutline = 0.08;     // m, of the path, on each side
+constexpr double kPathHeight = 0.08;  // m, above the floor, so that it is not in it
+constexpr double kGoalHeight = 2.5;   // m
+constexpr double kGoalRadius = 1.0;   // m
+constexpr double kSlight = 0.26;      // rad, about half an hour on the clock: no arrow
+constexpr double kLabelHeight = 0.7;  // m, of the letters
 constexpr int kRingPoints = 48;
 constexpr double kAbove =
     0.1;  // m, of the line over its edge: less, and a far camera mixes the two
@@ -91,31 +98,28 @@ std::optional<Eigen::Vector2d> course_after(const std::vector<Eigen::Vector2d>& 
   return Eigen::Rotation2Dd(-guidance.turn_angle) * leg.normalized();
 }
 
-void add_path(const MarkersConfig& config, const std::vector<Eigen::Vector2d>& path,
-              std::vector<Marker>& markers) {
+void add_path(const std::vector<Eigen::Vector2d>& path, std::vector<Marker>& markers) {
   if (path.size() < 2) return;
-  markers[0] =
-      strip("path", 0, path, config.path_width + 2.0 * config.outline, config.path_height, kWhite);
-  markers[1] = strip("path", 1, path, config.path_width, config.path_height + kAbove, kPurple);
+  markers[0] = strip("path", 0, path, kPathWidth + 2.0 * kOutline, kPathHeight, kWhite);
+  markers[1] = strip("path", 1, path, kPathWidth, kPathHeight + kAbove, kPurple);
 }
 
-void add_goal(const MarkersConfig& config, const Eigen::Vector2d& goal, const cues::Phrases& words,
+void add_goal(const Eigen::Vector2d& goal, const cues::Phrases& words,
               std::vector<Marker>& markers) {
   Marker pole = shape("goal", 0, Marker::CYLINDER, kRed);
-  pole.pose.position = at(goal, config.goal_height / 2.0);
+  pole.pose.position = at(goal, kGoalHeight / 2.0);
   pole.scale.x = pole.scale.y = 0.5;
-  pole.scale.z = config.goal_height;
+  pole.scale.z = kGoalHeight;
   markers[2] = pole;
-  markers[3] = strip("goal", 1, ring(goal, config.goal_radius), 0.15, config.path_height, kWhite);
-  markers[4] = label(0, words.picture().at("plate_goal"), goal,
-                     config.goal_height + config.label_height, config.label_height * 1.3);
+  markers[3] = strip("goal", 1, ring(goal, kGoalRadius), 0.15, kPathHeight, kWhite);
+  markers[4] = label(0, words.picture().at("plate_goal"), goal, kGoalHeight + kLabelHeight,
+                     kLabelHeight * 1.3);
 }
 
-void add_turn(const MarkersConfig& config, const Guidance& guidance,
-              const std::vector<Eigen::Vector2d>& path, const std::string& words,
-              std::vector<Marker>& markers) {
+void add_turn(const Guidance& guidance, const std::vector<Eigen::Vector2d>& path,
+              const std::string& words, std::vector<Marker>& markers) {
   const std::optional<Eigen::Vector2d> course = course_after(path, guidance);
-  if (guidance.waypoint_is_goal || !course || std::abs(guidance.turn_angle) < config.slight ||
+  if (guidance.waypoint_is_goal || !course || std::abs(guidance.turn_angle) < kSlight ||
       !std::isfinite(guidance.waypoint_distance))
     return;
   Marker arrow = shape("turn", 0, Marker::ARROW, kWhite);
@@ -124,37 +128,22 @@ void add_turn(const MarkersConfig& config, const Guidance& guidance,
   arrow.scale.y = 0.6;
   arrow.scale.z = 0.6;
   markers[5] = arrow;
-  if (!words.empty())
-    markers[6] = label(1, words, guidance.waypoint, 1.8, 0.6 * config.label_height);
+  if (!words.empty()) markers[6] = label(1, words, guidance.waypoint, 1.8, 0.6 * kLabelHeight);
 }
 
 }  // namespace
 
-void MarkersConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(path_width, "path_width", Range{0.05, 1.0}, "m", "width of the path's line");
-  visit(outline, "outline", Range{0.0, 0.5}, "m", "width of the white edge on each side of it");
-  visit(path_height, "path_height", Range{0.0, 1.0}, "m", "of the line above the floor");
-  visit(goal_height, "goal_height", Range{0.5, 10.0}, "m", "height of the goal's pole");
-  visit(goal_radius, "goal_radius", Range{0.1, 5.0}, "m",
-        "of the ring within which the goal is reached");
-  visit(slight, "slight", Range{0.0, 1.6}, "rad", "smallest turn of a corner that is shown as a turn");
-  visit(label_height, "label_height", Range{0.1, 3.0}, "m", "height of the letters");
-}
-
-visualization_msgs::MarkerArray guide_markers(const MarkersConfig& config,
-                                              const std::optional<Guidance>& guidance,
+visualization_msgs::MarkerArray guide_markers(const std::optional<Guidance>& guidance,
                                               const std::vector<Eigen::Vector2d>& path,
-                                              const cues::Phrases& words,
-                                              const std::string& turn) {
+                                              const cues::Phrases& words, const std::string& turn) {
   visualization_msgs::MarkerArray array;
   std::vector<Marker>& markers = array.markers;
   markers = {absent("path", 0),  absent("path", 1), absent("goal", 0), absent("goal", 1),
              absent("label", 0), absent("turn", 0), absent("label", 1)};
   if (!guidance || !guidance->leads()) return array;
-  add_path(config, path, markers);
-  add_goal(config, guidance->goal, words, markers);
-  add_turn(config, *guidance, path, turn, markers);
+  add_path(path, markers);
+  add_goal(guidance->goal, words, markers);
+  add_turn(*guidance, path, turn, markers);
   for (Marker& marker : markers) marker.pose.position.z += guidance->floor;
   return array;
 }

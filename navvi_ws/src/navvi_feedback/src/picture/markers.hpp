@@ -9,25 +9,12 @@
 #include <vector>
 
 #include "cues/phrases.hpp"
-#include "navvi_config/field.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Guidance;
 }  // namespace navvi_feedback
 
 namespace navvi_feedback::picture {
-
-struct MarkersConfig {
-  double path_width = 0.22;   // m
-  double outline = 0.08;      // m
-  double path_height = 0.08;  // m
-  double goal_height = 2.5;   // m
-  double goal_radius = 1.0;   // m
-  double slight = 0.26;       // rad, about half an hour on the clock
-  double label_height = 0.7;  // m
-
-  void describe(navvi_config::Visitor& visit);
-};
 
 /// What is drawn of the guidance (R-VIS-1, 2): the path as a purple strip on a wider white one, the
 /// goal as a red pole in a white ring with its word, and the next turn as an arrow with its words.
@@ -39,8 +26,8 @@ struct MarkersConfig {
 /// \param words  of the language of the session
 /// \param turn  what is said of the next turn; empty while the person is to do something else
 [[nodiscard]] visualization_msgs::MarkerArray guide_markers(
-    const MarkersConfig& config, const std::optional<Guidance>& guidance,
-    const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words, const std::string& turn);
+    const std::optional<Guidance>& guidance, const std::vector<Eigen::Vector2d>& path,
+    const cues::Phrases& words, const std::string& turn);
 
 /// What shows a path that nobody is led along yet: its goal, and no turn.
 /// \param path  m, in map, of at least one place

@@ -12,8 +12,6 @@ void FamilyConfig::describe(navvi_config::Visitor& visit) {
 
 void TurnConfig::describe(navvi_config::Visitor& visit) {
   FamilyConfig::describe(visit);
-  visit(begin, "begin", Range{5.0, 60.0}, "deg", "it begins once the heading is off by more");
-  visit(done, "done", Range{1.0, 30.0}, "deg", "it ends with a sound of its own at this angle");
   visit(stopping_delay, "stopping_delay", Range{0.0, 2.0}, "s",
         "how much earlier it ends: what the person and the robot take to stop a turn");
   visit(stopping_spread, "stopping_spread", Range{0.0, 2.0}, "s",
@@ -26,8 +24,6 @@ void TurnConfig::describe(navvi_config::Visitor& visit) {
       slow_down, "slow_down", Range{0.0, 5.0}, "s",
       "while it counts down, the robot turns no faster than what is left over this time, so that a "
       "late hand does little; 0: as fast as the stick says");
-  visit(on_course, "on_course", Range{0.0, 60.0}, "s",
-        "between two soft sounds while the robot drives on as it should; 0: none");
 }
 
 void SoundsConfig::describe(navvi_config::Visitor& visit) {
@@ -38,10 +34,6 @@ void SoundsConfig::describe(navvi_config::Visitor& visit) {
   visit.group("near", near);
   visit.group("arrival", arrival);
   visit.group("beacon", beacon);
-  visit(capture_radius, "capture_radius", Range{0.2, 5.0}, "m",
-        "nearer than this a way-point has no beacon");
-  visit(under_words, "under_words", Range{0.0, 1.0}, "",
-        "share of its volume that a sound has while words are spoken; a hit has it all");
   visit(sides, "sides", Any{}, "",
         "the sound device by which the person told left from right: with it they are not asked");
 }

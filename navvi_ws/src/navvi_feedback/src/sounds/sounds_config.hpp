@@ -16,13 +16,14 @@ struct FamilyConfig {
 };
 
 struct TurnConfig : FamilyConfig {
-  double begin = 15.0;            ///< deg
-  double done = 2.0;              ///< deg
+  static constexpr double kBegin = 15.0;  ///< deg, it begins once the heading is off by more
+  static constexpr double kDone = 2.0;    ///< deg, it ends with a sound of its own at this angle
   double stopping_delay = 0.4;    ///< s
   double stopping_spread = 0.15;  ///< s
   bool learn = true;
   double slow_down = 2.0;  ///< s
-  double on_course = 4.0;  ///< s
+  /// s, between two soft sounds while the robot drives on as it should; 0: none
+  static constexpr double kOnCourse = 4.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -35,8 +36,9 @@ struct SoundsConfig {
   FamilyConfig near;
   FamilyConfig arrival;
   FamilyConfig beacon{false};
-  double capture_radius = 1.5;  ///< m
-  double under_words = 0.3;
+  static constexpr double kCaptureRadius = 1.5;  ///< m, nearer than this a way-point has no beacon
+  /// share of its volume that a sound has while words are spoken; a hit has it all
+  static constexpr double kUnderWords = 0.3;
   std::string sides;  ///< sound device by which the person tells sides
 
   void describe(navvi_config::Visitor& visit);

@@ -33,7 +33,7 @@ std::vector<Play> Soundscape::update(const Observation& now, const Lead& lead, d
       turn_.update(config_.turn.on ? lead.off : std::nullopt, lead.fine, lead.motion, time);
   if (turn) plays.push_back(*turn);
   const auto next = waypoint(now, lead);
-  if (config_.beacon.on && next && next->norm() > config_.capture_radius &&
+  if (config_.beacon.on && next && next->norm() > config_.kCaptureRadius &&
       due(beacon_, next->norm(), time))
     plays.push_back({Earcon::beacon, *next, config_.beacon.volume});
   return plays;

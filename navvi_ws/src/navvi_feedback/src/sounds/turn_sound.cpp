@@ -59,7 +59,7 @@ std::optional<Play> TurnSound::update(std::optional<double> off, bool fine, cons
 }
 
 bool TurnSound::begins(double off, bool fine, double time) {
-  const double begin = fine ? std::max(kFine * config_.begin, config_.done) : config_.begin;
+  const double begin = fine ? std::max(kFine * config_.kBegin, config_.kDone) : config_.kBegin;
   if (std::abs(off) <= begin * kDegree) {
     off_since_.reset();
     return false;
@@ -90,7 +90,7 @@ std::optional<Play> TurnSound::count(double off, double rate, double dt, double 
   }
   // Turning counter-clockwise makes what lies ahead wander clockwise.
   const double left = off + rate * learnt().stopping_delay;
-  if (std::abs(left) <= config_.done * kDegree || left * off < 0.0) {
+  if (std::abs(left) <= config_.kDone * kDegree || left * off < 0.0) {
     if (counting_->turned && !counting_->strayed) learning_.turned(false);
     counting_.reset();
     if (std::abs(rate) > kStill) stopping_ = Stopping{time, rate, time, 0.0};
@@ -99,7 +99,7 @@ std::optional<Play> TurnSound::count(double off, double rate, double dt, double 
   }
   if (counting_->ticked && time - *counting_->ticked < interval(off)) return std::nullopt;
   // Just before the sound to stop at a tick would mask it.
-  if (turns && std::abs(left) - config_.done * kDegree < std::abs(rate) * kFastest)
+  if (turns && std::abs(left) - config_.kDone * kDegree < std::abs(rate) * kFastest)
     return std::nullopt;
   counting_->ticked = heard_ = time;
   const Eigen::Vector2d side(0.0, off > 0.0 ? -1.0 : 1.0);
@@ -115,7 +115,7 @@ std::optional<Play> TurnSound::stop_again(double time) {
 
 std::optional<Play> TurnSound::on_course(const Velocity& motion, double time) {
   if (std::abs(motion.linear) < kDriving) heard_ = time;
-  if (config_.on_course <= 0.0 || time - heard_ < config_.on_course) return std::nullopt;
+  if (config_.kOnCourse <= 0.0 || time - heard_ < config_.kOnCourse) return std::nullopt;
   heard_ = time;
   return Play{Earcon::on_course, Eigen::Vector2d::UnitX(), 0.5 * config_.volume};
 }

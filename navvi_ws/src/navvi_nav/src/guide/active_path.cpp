@@ -9,11 +9,7 @@ constexpr double kElsewhere = 2.0;  // m of a path that a new one leaves: the pe
 
 }  // namespace
 
-void ActivePathConfig::describe(navvi_config::Visitor& visit) {
-  visit.group("guidance", guidance);
-  visit(off_path, "off_path", navvi_config::Range{0.1, 10.0}, "m",
-        "a robot farther off its path gets a new one at the next plan");
-}
+void ActivePathConfig::describe(navvi_config::Visitor& visit) { visit.group("guidance", guidance); }
 
 double ActivePath::follow(const plan::Plan& plan, Guidance::Replan reason,
                           std::optional<Point> robot) {

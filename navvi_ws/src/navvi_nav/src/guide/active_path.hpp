@@ -9,7 +9,8 @@ namespace navvi_nav::guide {
 
 struct ActivePathConfig {
   PathFollowerConfig guidance;
-  double off_path = 1.0;
+  /// m, a robot farther off its path gets a new one at the next plan
+  static constexpr double kOffPath = 1.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -52,7 +53,7 @@ class ActivePath {
   /// m, from the robot to its path; 0 if there is none
   [[nodiscard]] double offset(Point robot) const;
   /// True if the robot needs a new path at the next plan. \pre following()
-  [[nodiscard]] bool strayed(Point robot) const { return offset(robot) > config_.off_path; }
+  [[nodiscard]] bool strayed(Point robot) const { return offset(robot) > config_.kOffPath; }
   /// True if the robot is at the goal, or where the path ends short of it.
   [[nodiscard]] bool arrived(Point robot, const map::Space& space) const;
 

@@ -73,23 +73,8 @@ struct ConflictForecast::Encounter {
 
 void ConflictForecastConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit(tolerance, "tolerance", Range{0.0, 0.5}, "m",
-        "how far an obstacle may reach into the path's room");
   visit(look_ahead, "look_ahead", Range{0.5, 1e6}, "m",
         "obstacles on the path farther ahead than this are left to move away");
-  visit(pause, "pause", Range{0.0, 60.0}, "s",
-        "a thing that moved and has stood for less, or for less than it takes to get there, may "
-        "drive on");
-  visit(foresight, "foresight", Range{0.0, 20.0}, "s",
-        "a thing that leaves the path within this time, keeping its velocity, only crosses");
-  visit(notice_time, "notice_time", Range{0.0, 20.0}, "s",
-        "an obstacle that will cut the path within this time counts as cutting it");
-  visit(late_time, "late_time", Range{0.0, 20.0}, "s",
-        "how late the robot may be against its pace");
-  visit(stop_room, "stop_room", Range{0.0, 2.0}, "m",
-        "least gap from a waiting robot to a thing that passes it");
-  visit(elbow_room, "elbow_room", Range{0.0, 2.0}, "m",
-        "least gap between a driving robot and an obstacle");
 }
 
 /// Neither driving on nor waiting is safe, and it was not seen to come.
@@ -101,7 +86,7 @@ bool ConflictForecast::must_be_evaded(const Encounter& one) const {
 
 /// m, between the centres of a cylinder and of a robot that just touch
 double ConflictForecast::room(const Cylinder& obstacle) const {
-  return obstacle.radius + config_.robot_radius - config_.tolerance;
+  return obstacle.radius + config_.robot_radius - config_.kTolerance;
 }
 
 /// m along the path to where it comes nearer to `center` than `room`.
@@ -147,8 +132,8 @@ ConflictForecast::Encounter ConflictForecast::encounter(const Path& path, const 
                                                         double pace) const {
   Encounter out;
   // Most things are too far off to come near the robot or what is looked at of its path.
-  const double far = config_.look_ahead + config_.foresight * norm(thing.velocity()) +
-                     config_.robot_radius + config_.stop_room + kRounding;
+  const double far = config_.look_ahead + config_.kForesight * norm(thing.velocity()) +
+                     config_.robot_radius + config_.kStopRoom + kRounding;
   if (thing.gap(path.front(), 0.0) > far) return out;
   const std::optional<double> now = cut_at(path, thing, 0.0);
   out.cut = now;
@@ -157,19 +142,19 @@ ConflictForecast::Encounter ConflictForecast::encounter(const Path& path, const 
   std::optional<double> first = now;
   std::optional<double> last = now;
   double last_time = 0.0;
-  double noticed = now ? 0.0 : config_.foresight;  // s, when it first cuts the path
+  double noticed = now ? 0.0 : config_.kForesight;  // s, when it first cuts the path
   bool keeps_ahead = now.has_value();
-  for (double t = kStep; t <= config_.foresight + 1e-9; t += kStep) {
-    if (thing.gap(path.front(), t) < touch + config_.stop_room)
+  for (double t = kStep; t <= config_.kForesight + 1e-9; t += kStep) {
+    if (thing.gap(path.front(), t) < touch + config_.kStopRoom)
       out.time_to_hit_waiting = std::min(out.time_to_hit_waiting, t);
     const std::optional<double> cut = cut_at(path, thing, t);
     if (!cut) continue;
-    const double near = touch + config_.elbow_room;
+    const double near = touch + config_.kElbowRoom;
     const bool hits = thing.gap(point_at(path, pace * t), t) < near ||
-                      (t > config_.late_time &&
-                       thing.gap(point_at(path, pace * (t - config_.late_time)), t) < near);
+                      (t > config_.kLateTime &&
+                       thing.gap(point_at(path, pace * (t - config_.kLateTime)), t) < near);
     if (hits) out.time_to_collision = std::min(out.time_to_collision, t);
-    if (thing.gap(point_at(path, pace * t), t) < touch + config_.stop_room)
+    if (thing.gap(point_at(path, pace * t), t) < touch + config_.kStopRoom)
       out.time_to_touch = std::min(out.time_to_touch, t);
     if (!first) {
       first = cut;
@@ -183,9 +168,9 @@ ConflictForecast::Encounter ConflictForecast::encounter(const Path& path, const 
   out.at = *first;
   out.time_to_clear = last_time + kStep;
   out.time_to_meeting = *first / (pace + norm(thing.velocity()));
-  out.ends = out.time_to_clear <= config_.foresight + 1e-9 ||
+  out.ends = out.time_to_clear <= config_.kForesight + 1e-9 ||
              (keeps_ahead && *last >= *first + kHeadwayGain);
-  if (out.ends && noticed <= config_.notice_time + 1e-9) out.state = Conflict::State::crossing;
+  if (out.ends && noticed <= config_.kNoticeTime + 1e-9) out.state = Conflict::State::crossing;
   if (!out.ends && now) out.state = Conflict::State::oncoming;
   return out;
 }
@@ -196,7 +181,7 @@ ConflictForecast::Encounter ConflictForecast::standing(const Thing& thing, doubl
   Encounter out;
   const double there = cut / pace;
   const double stood = thing.first->stood;
-  const bool pauses = stood < config_.pause || there > std::max(config_.pause, stood);
+  const bool pauses = stood < config_.kPause || there > std::max(config_.kPause, stood);
   out.state = pauses ? Conflict::State::oncoming : Conflict::State::stationary;
   out.cut = out.at = cut;
   out.time_to_meeting = out.time_to_collision = there;
@@ -247,11 +232,11 @@ std::vector<Cylinder> ConflictForecast::predicted(const Path& path,
     if (one.state != Conflict::State::oncoming && !evades) return;
     const double speed = norm(thing.velocity());
     if (speed <= kStandingSpeed) return;
-    const double leaves = one.ends ? one.time_to_clear : config_.foresight;
-    const double end = evades ? leaves : one.time_to_meeting + config_.late_time;
+    const double leaves = one.ends ? one.time_to_clear : config_.kForesight;
+    const double end = evades ? leaves : one.time_to_meeting + config_.kLateTime;
     const double step = std::max(std::max(thing.first->radius, config_.robot_radius) / speed,
                                  end / kMostPlaces);  // s
-    const double spare = 2.0 * config_.robot_radius + config_.elbow_room;
+    const double spare = 2.0 * config_.robot_radius + config_.kElbowRoom;
     for (double t = std::min(step, end); t <= end + 1e-9; t += step) {
       if (thing.gap(path.front(), t) < spare) {
         if (one.ends || !evades) break;
@@ -259,7 +244,7 @@ std::vector<Cylinder> ConflictForecast::predicted(const Path& path,
       }
       for (Cylinder part : thing) {
         part.center = part.center + t * part.velocity;
-        part.radius += config_.elbow_room + kSpareRoom;
+        part.radius += config_.kElbowRoom + kSpareRoom;
         out.push_back(part);
       }
     }

@@ -12,14 +12,21 @@ namespace navvi_nav::guide {
 
 struct ConflictForecastConfig {
   double robot_radius = 0.35;  ///< m, set from the mesh's
-  double tolerance = 0.05;
+  /// m, how far an obstacle may reach into the path's room
+  static constexpr double kTolerance = 0.05;
   double look_ahead = 12.0;
-  double foresight = 6.0;
-  double pause = 5.0;
-  double notice_time = 1.0;
-  double late_time = 1.0;
-  double stop_room = 0.1;
-  double elbow_room = 0.2;
+  /// s, a thing that leaves the path within this time, keeping its velocity, only crosses
+  static constexpr double kForesight = 6.0;
+  /// s, a thing that moved and has stood for less, or for less than it takes to get there, may
+  /// drive on
+  static constexpr double kPause = 5.0;
+  /// s, an obstacle that will cut the path within this time counts as cutting it
+  static constexpr double kNoticeTime = 1.0;
+  static constexpr double kLateTime = 1.0;  ///< s, how late the robot may be against its pace
+  /// m, least gap from a waiting robot to a thing that passes it
+  static constexpr double kStopRoom = 0.1;
+  /// m, least gap between a driving robot and an obstacle
+  static constexpr double kElbowRoom = 0.2;
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -47,8 +47,6 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   visit(carve_within, "carve_within", Range{10.0, 1e6}, "m",
         "what drives or walks farther from the robot leaves no hole: it moves on before the robot "
         "comes");
-  visit(plan_timeout, "plan_timeout", Range{0.1, 10.0}, "s",
-        "a path that must change is hidden when no plan came for so long");
   visit(map_timeout, "map_timeout", Range{0.0, 3600.0}, "s",
         "a map older than this is stale, for a mapper that keeps sending; 0: maps do not age");
 }
@@ -132,9 +130,9 @@ bool Navigator::map_stale(double time) const {
 }
 
 bool Navigator::undecided(double time) const {
-  const bool cut_off = cut_off_ && time - *cut_off_ < config_.plan_timeout;
+  const bool cut_off = cut_off_ && time - *cut_off_ < config_.kPlanTimeout;
   return goal_.place && (!goal_.planned || cut_off) && map_.floor && pose(time) &&
-         (!sent_.since || time - *sent_.since < config_.plan_timeout);
+         (!sent_.since || time - *sent_.since < config_.kPlanTimeout);
 }
 
 std::optional<plan::PlanRequest> Navigator::update(double time) {
@@ -210,7 +208,7 @@ void Navigator::give_up_late_plan(double time) {
                            sent_.reason == Guidance::Replan::waypoint_blocked ||
                            sent_.reason == Guidance::Replan::map_changed;
   if (!path_.following() || !sent_.since || !must_change ||
-      time - *sent_.since <= config_.plan_timeout)
+      time - *sent_.since <= config_.kPlanTimeout)
     return;
   path_.drop();
   guidance_.state = Guidance::State::no_route;

@@ -33,7 +33,8 @@ struct NavigatorConfig {
   ObservationConfig observation;
   double carve_period = 0.5;
   double carve_within = 80.0;
-  double plan_timeout = 1.0;
+  /// s, a path that must change is hidden when no plan came for so long
+  static constexpr double kPlanTimeout = 1.0;
   double map_timeout = 0.0;
 
   void describe(navvi_config::Visitor& visit);

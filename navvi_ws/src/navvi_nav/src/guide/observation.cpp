@@ -15,9 +15,6 @@ void ObservationConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(most_cylinders, "most_cylinders", Range{1.0, 4.0}, "",
         "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)");
-  visit(pose_timeout, "pose_timeout", Range{0.1, 10.0}, "s", "an older pose of the robot is stale");
-  visit(obstacle_timeout, "obstacle_timeout", Range{0.1, 10.0}, "s",
-        "older obstacles are forgotten");
 }
 
 void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
@@ -73,7 +70,7 @@ void Observation::reset_times() {
 }
 
 std::optional<Pose2> Observation::pose(double time) const {
-  return time - pose_time_ <= config_.pose_timeout ? pose_ : std::nullopt;
+  return time - pose_time_ <= config_.kPoseTimeout ? pose_ : std::nullopt;
 }
 
 std::optional<MovingThing> Observation::thing(std::optional<std::uint32_t> id) const {
@@ -84,7 +81,7 @@ std::optional<MovingThing> Observation::thing(std::optional<std::uint32_t> id) c
 }
 
 bool Observation::obstacles_fresh(double time) const {
-  return obstacles_time_ && time - *obstacles_time_ <= config_.obstacle_timeout;
+  return obstacles_time_ && time - *obstacles_time_ <= config_.kObstacleTimeout;
 }
 
 }  // namespace navvi_nav::guide

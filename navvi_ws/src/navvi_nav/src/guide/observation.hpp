@@ -10,8 +10,8 @@ namespace navvi_nav::guide {
 
 struct ObservationConfig {
   int most_cylinders = 4;
-  double pose_timeout = 1.0;
-  double obstacle_timeout = 1.0;
+  static constexpr double kPoseTimeout = 1.0;      ///< s, an older pose of the robot is stale
+  static constexpr double kObstacleTimeout = 1.0;  ///< s, older obstacles are forgotten
 
   void describe(navvi_config::Visitor& visit);
 };

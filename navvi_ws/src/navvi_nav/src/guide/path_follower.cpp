@@ -33,7 +33,6 @@ void PathFollowerConfig::describe(navvi_config::Visitor& visit) {
         "room that the straight way to a way-point must have before the one before is given up");
   visit(easy_radius, "easy_radius", Range{0.0, 2.0}, "m",
         "the same while the robot is not yet close");
-  visit(close, "close", Range{0.0, 5.0}, "m", "distance from a way-point that counts as close");
   visit(one_turn, "one_turn", Range{0.0, 5.0}, "m",
         "corners nearer than this to the one before are announced as one turn with it, and bends "
         "below 15 degrees not at all; 0: each corner is");
@@ -68,7 +67,7 @@ bool PathFollower::reached(Point robot, const map::Space& space) const {
   if (away > config_.waypoint_reached) return false;
   const Point after = path_[next_ + 1];
   if (space.segment_clear(robot, after, config_.easy_radius)) return true;
-  return away <= config_.close && leaves_corner(robot, space);
+  return away <= config_.kClose && leaves_corner(robot, space);
 }
 
 /// True if a robot close to the next way-point may turn to the one after. More room than the leg

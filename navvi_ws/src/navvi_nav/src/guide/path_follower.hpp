@@ -17,7 +17,7 @@ struct PathFollowerConfig {
   double goal_reached = 1.0;
   double sight_radius = 0.4;
   double easy_radius = 0.6;
-  double close = 0.4;
+  static constexpr double kClose = 0.4;  ///< m, distance from a way-point that counts as close
   double one_turn = 1.0;
   double steer_ahead = 3.0;
   double least_ahead = 0.8;

@@ -44,13 +44,6 @@ void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
   visit(
       hold_time, "hold_time", Range{0.0, 60.0}, "s",
       "a path is kept so long at most while moving things on it would hit who drives on; 0: never");
-  visit(hold_choice, "hold_choice", Range{0.0, 60.0}, "s",
-        "a path chosen because of moving things is kept so long at least, if no collision is "
-        "forecast within as long");
-  visit(hold_detour, "hold_detour", Range{0.0, 100.0}, "m",
-        "longest detour around a moving thing while the path may be kept");
-  visit(wait_distance, "wait_distance", Range{0.0, 100.0}, "m",
-        "nearer than this the robot waits for a thing that crosses or closes the only way");
 }
 
 bool PathKeeper::update(double time, const Conflict& conflict) {
@@ -101,10 +94,10 @@ bool PathKeeper::holds(double time, const Candidate& followed, const Candidate& 
   const bool passes =
       conflict.state == Conflict::State::crossing || waits_safely(conflict) || far_round;
   if (goes_on(time, passes && !(conflict.hits_either_way() && safer(followed, fresh)))) return true;
-  if (!holds_paths() || conflict.time_to_collision <= config_.hold_choice) return false;
-  const bool just_chosen = chosen_ && time - *chosen_ < config_.hold_choice;
+  if (!holds_paths() || conflict.time_to_collision <= config_.kHoldChoice) return false;
+  const bool just_chosen = chosen_ && time - *chosen_ < config_.kHoldChoice;
   return just_chosen ||
-         (fresh.path.size() >= 2 && fresh.conflict.time_to_collision <= config_.hold_choice);
+         (fresh.path.size() >= 2 && fresh.conflict.time_to_collision <= config_.kHoldChoice);
 }
 
 /// Remembers since when a conflict is sat out. \returns true for at most hold_time

@@ -14,9 +14,12 @@ struct PathKeeperConfig {
   double gain_length = 0.5;
   double gain_back = 4.0;
   double hold_time = 8.0;
-  double hold_choice = 3.0;
-  double hold_detour = 6.0;
-  double wait_distance = 3.0;
+  /// s, a path chosen because of moving things is kept so long at least, if no collision is
+  /// forecast within as long
+  static constexpr double kHoldChoice = 3.0;
+  double hold_detour = 6.0;  ///< m, longest detour around a moving thing while the path may be kept
+  /// m, nearer than this the robot waits for a thing that crosses or closes the only way
+  static constexpr double kWaitDistance = 3.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -76,7 +79,7 @@ class PathKeeper {
 
  private:
   [[nodiscard]] bool holds(double time, const Candidate& followed, const Candidate& fresh);
-  [[nodiscard]] bool is_near(double at) const { return at <= config_.wait_distance; }
+  [[nodiscard]] bool is_near(double at) const { return at <= config_.kWaitDistance; }
   [[nodiscard]] bool waits_safely(const Conflict& conflict) const;
   /// True if nothing that cuts the path hits a robot that drives on or waits, or it is still far.
   [[nodiscard]] bool goes_on_safely(const Conflict& conflict);

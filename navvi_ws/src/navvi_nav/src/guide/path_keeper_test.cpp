@@ -136,8 +136,8 @@ TEST_F(Holding, keeps_what_was_just_chosen_unless_something_would_be_run_into) {
     };
     EXPECT_FALSE(kept(10.0));
     keeper.chose(10.0);
-    EXPECT_EQ(kept(10.5), hits_in > config_.hold_choice);
-    EXPECT_EQ(kept(12.9), hits_in > config_.hold_choice);
+    EXPECT_EQ(kept(10.5), hits_in > config_.kHoldChoice);
+    EXPECT_EQ(kept(12.9), hits_in > config_.kHoldChoice);
     EXPECT_FALSE(kept(13.1));
   }
 }

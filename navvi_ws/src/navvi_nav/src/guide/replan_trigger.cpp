@@ -14,11 +14,8 @@ void ReplanTriggerConfig::describe(navvi_config::Visitor& visit) {
   visit(period, "period", Range{0.1, 60.0}, "s",
         "tau: a plan is made again at least so often (R-NAV-9)");
   visit(slow_speed, "slow_speed", Range{0.0, 1.0}, "m/s", "slower than this counts as too slow");
-  visit(slow_time, "slow_time", Range{0.0, 60.0}, "s", "how long the robot must be too slow");
   visit(near_range, "near_range", Range{0.0, 20.0}, "m",
         "R_threshold: a new obstacle within this distance of the robot is a reason");
-  visit(min_interval, "min_interval", Range{0.0, 10.0}, "s",
-        "least time between plans because of obstacles");
   visit(only_if_it_matters, "only_if_it_matters", navvi_config::Any{}, "",
         "search for a path that is still free only if something left a place through which a "
         "better one could lead, or the robot strayed");
@@ -51,7 +48,7 @@ bool ReplanTrigger::is_slow(const ReplanInput& input) {
   } else if (!slow_since_) {
     slow_since_ = input.time;
   }
-  return slow_since_ && input.time - *slow_since_ > config_.slow_time &&
+  return slow_since_ && input.time - *slow_since_ > config_.kSlowTime &&
          (!last_slow_ || input.time - *last_slow_ >= config_.period);
 }
 
@@ -99,9 +96,9 @@ std::optional<Guidance::Replan> ReplanTrigger::choose(const ReplanInput& input, 
   if (input.new_goal || !last_plan_) return Guidance::Replan::new_goal;
   if (input.map_changed) return Guidance::Replan::map_changed;
   const double since = input.time - *last_plan_;
-  if (since < std::min(config_.min_interval, config_.period)) return std::nullopt;
+  if (since < std::min(config_.kMinInterval, config_.period)) return std::nullopt;
   if (input.cut_off) return Guidance::Replan::waypoint_blocked;
-  if (since >= config_.min_interval && !input.kept && !input.closed &&
+  if (since >= config_.kMinInterval && !input.kept && !input.closed &&
       input.remaining.size() >= 2) {
     if (input.conflict.waypoint_taken) return Guidance::Replan::waypoint_blocked;
     if ((input.evades && since >= config_.period) || input.conflict.cut)
@@ -112,8 +109,8 @@ std::optional<Guidance::Replan> ReplanTrigger::choose(const ReplanInput& input, 
     near_pending_ = false;
     return std::nullopt;
   }
-  if (since >= config_.min_interval && near_pending_) return Guidance::Replan::obstacle_near;
-  if (since >= config_.min_interval && slow) return Guidance::Replan::too_slow;
+  if (since >= config_.kMinInterval && near_pending_) return Guidance::Replan::obstacle_near;
+  if (since >= config_.kMinInterval && slow) return Guidance::Replan::too_slow;
   if (since >= config_.period) return Guidance::Replan::period;
   return std::nullopt;
 }

@@ -16,9 +16,9 @@ struct ReplanTriggerConfig {
   double robot_radius = 0.35;  ///< m, set from the mesh's
   double period = 2.0;
   double slow_speed = 0.1;
-  double slow_time = 1.0;
+  static constexpr double kSlowTime = 1.0;  ///< s, how long the robot must be too slow
   double near_range = 3.0;
-  double min_interval = 0.5;
+  static constexpr double kMinInterval = 0.5;  ///< s, least time between plans because of obstacles
   bool only_if_it_matters = true;
 
   void describe(navvi_config::Visitor& visit);

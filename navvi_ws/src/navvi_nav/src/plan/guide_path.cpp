@@ -72,7 +72,7 @@ class Candidates {
 };
 
 double longest_of(const smooth::SmoothingConfig& config, double shortest) {
-  return std::max(config.max_stretch * shortest, shortest + config.max_detour);
+  return std::max(config.kMaxStretch * shortest, shortest + config.kMaxDetour);
 }
 
 /// One guide path in the making.
@@ -98,10 +98,10 @@ class GuidePath {
     const smooth::GuideCostConfig& prices = tools_.config.cost;
     if (budget_.affords_search()) candidates_.offer(sketch_to(route_.to, 0.0));
     if (!std::isfinite(candidates_.least())) candidates_.offer(sketch(route_.plan.path));
-    if (budget_.affords_search() && tools_.cost.tight(candidates_.best()) > prices.turn_price)
-      candidates_.offer(sketch_to(route_.to, 2.0 * prices.tight));
+    if (budget_.affords_search() && tools_.cost.tight(candidates_.best()) > prices.kTurnPrice)
+      candidates_.offer(sketch_to(route_.to, 2.0 * prices.kTight));
     candidates_.offer(refined(candidates_.best(), followed.empty() ? 1.0 : kRefine));
-    candidates_.offer(keeping(followed), tools_.config.keep);
+    candidates_.offer(keeping(followed), tools_.config.kKeep);
     return candidates_.best();
   }
 
@@ -116,7 +116,7 @@ class GuidePath {
   }
   /// Of a path with few turns. \param narrow  m, slits that it keeps out of
   Path sketch_to(const mesh::Mesh::Place& to, double narrow) {
-    const double turn = tools_.config.cost.turn_price * kSearchedTurn;
+    const double turn = tools_.config.cost.kTurnPrice * kSearchedTurn;
     const search::Found& found = tools_.search.find_at(
         {turn, narrow, candidates_.least(), budget_.nodes()}, tools_.mesh, route_.from, to);
     budget_.searched(found.nodes_expanded);

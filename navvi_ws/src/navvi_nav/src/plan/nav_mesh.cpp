@@ -31,11 +31,9 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
         "how Recast divides the floor before it is cut into polygons; layers take half the time");
   visit(contour_error, "contour_error", Range{0.0, 2.0}, "cells",
         "how deep a notch in a wall may be that is filled to draw the wall straight");
-  visit(tile_size, "tile_size", Range{2.0, 64.0}, "m", "edge of a tile");
   visit(max_edge, "max_edge", Range{0.0, 100.0}, "m",
         "longer edges along walls are split; 0: never");
   visit(polygon_corners, "polygon_corners", Range{3.0, 12.0}, "", "most corners of a polygon");
-  visit(threads, "threads", Range{1.0, 64.0}, "", "that share the work on a new map");
   visit(carve_moved, "carve_moved", Range{0.0, 1.0}, "m",
         "an obstacle that moved less keeps its hole");
   visit(carve_changed, "carve_changed", Range{0.0, 1.0}, "",

@@ -28,10 +28,10 @@ struct NavMeshConfig {
   bool whole_cell_erosion = false;
   std::string regions = "layers";
   double contour_error = 1.0;
-  double tile_size = 32.0;
+  double tile_size = 32.0;  ///< m, edge of a tile
   double max_edge = 0.0;
   int polygon_corners = 12;
-  int threads = 2;
+  int threads = 2;  ///< that share the work on a new map
   double carve_moved = 0.0;
   double carve_changed = 0.0;
 

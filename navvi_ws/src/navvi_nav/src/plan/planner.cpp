@@ -28,7 +28,6 @@ void PlannerConfig::describe(navvi_config::Visitor& visit) {
   visit(search, "search", navvi_config::OneOf{{"exact", "centroid_astar"}}, "",
         "the shortest path, or the paper's (R-NAV-6, R-NAV-7)");
   visit(alpha, "alpha", Range{0.0, 1.0}, "", "weight of centroid_astar's heuristic (R-NAV-6)");
-  visit(start_snap, "start_snap", Range{0.0, 2.0}, "m", "how far off the mesh the robot may stand");
 }
 
 Planner::Planner(const PlannerConfig& config, const navvi_config::Cache* cache)

@@ -19,7 +19,7 @@ struct PlannerConfig {
   smooth::SmoothingConfig smoothing;
   std::string search = "exact";
   double alpha = 1.0;
-  double start_snap = 0.5;
+  static constexpr double kStartSnap = 0.5;  ///< m, how far off the mesh the robot may stand
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -73,7 +73,7 @@ class Planner {
   }
   [[nodiscard]] Plan clear_plan(const PlanRequest& request);
   [[nodiscard]] Plan plan_without_obstacles(const PlanRequest& request, const Plan& blocked);
-  [[nodiscard]] RouteFinder routes() { return {nav_mesh_, search_, config_.start_snap}; }
+  [[nodiscard]] RouteFinder routes() { return {nav_mesh_, search_, config_.kStartSnap}; }
 
   PlannerConfig config_;
   const navvi_config::Cache* cache_;

@@ -436,7 +436,7 @@ TEST(Planner, leads_round_a_field_of_racks_rather_than_in_steps_through_it) {
     ASSERT_EQ(plan.status, PlanStatus::found);
     EXPECT_LE(turns_of(plan.path), 2U);
     EXPECT_NEAR(plan.shortest, field.shortest, 1.0);
-    EXPECT_LE(length_of(plan.path), config.smoothing.max_stretch * plan.shortest);
+    EXPECT_LE(length_of(plan.path), config.smoothing.kMaxStretch * plan.shortest);
     config.smoothing.enabled = false;
     Planner shortest(config);
     ASSERT_EQ(shortest.set_map(field.grid).error, "");
@@ -492,8 +492,8 @@ TEST(Planner, has_a_better_path_the_more_work_it_may_do_and_a_whole_one_without_
       const Plan plan = planner.plan(world.start, world.goal);
       if (plan.status != PlanStatus::found) continue;
       expect_clear(plan.path, world.map, world.cylinders);
-      EXPECT_LE(length_of(plan.path), std::max(config.smoothing.max_stretch * plan.shortest,
-                                               plan.shortest + config.smoothing.max_detour) +
+      EXPECT_LE(length_of(plan.path), std::max(config.smoothing.kMaxStretch * plan.shortest,
+                                               plan.shortest + config.smoothing.kMaxDetour) +
                                           0.1);
       EXPECT_TRUE(plan.path == planner.plan(world.start, world.goal).path);
       const NavMesh& mesh = planner.nav_mesh();
@@ -567,8 +567,8 @@ TEST(Planner, keeps_its_radius_and_its_bounds_on_ten_thousand_paths) {
       const Plan plan = planner.plan({pick(18.8), pick(12.8)}, {pick(18.8), pick(12.8)});
       if (plan.status != PlanStatus::found || room(plan.path.front()) < kRadius) continue;
       ++paths;
-      EXPECT_LE(length_of(plan.path), std::max(config.smoothing.max_stretch * plan.shortest,
-                                               plan.shortest + config.smoothing.max_detour) +
+      EXPECT_LE(length_of(plan.path), std::max(config.smoothing.kMaxStretch * plan.shortest,
+                                               plan.shortest + config.smoothing.kMaxDetour) +
                                           0.1);
       EXPECT_GE(length_of(plan.path), plan.shortest - 0.1);
       for (const Point point : points_along(plan.path, 0.05))

@@ -79,17 +79,8 @@ int samples_of(Point a, Point b) {
 
 void GuideCostConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit(turn_price, "turn_price", Range{0.0, 20.0}, "m",
-        "length a path may gain to save a turn by 90 degrees; half of it for a slight turn, 1.5 "
-        "for one back");
   visit(preferred_clearance, "preferred_clearance", Range{0.0, 2.0}, "m",
         "room a guide path leaves beyond the robot's radius where there is room");
-  visit(clearance_weight, "clearance_weight", Range{0.0, 100.0}, "",
-        "how much dearer a metre without any preferred clearance is");
-  visit(tight, "tight", Range{0.01, 2.0}, "m",
-        "clearance beyond the robot's radius below which the price rises steeply");
-  visit(tight_weight, "tight_weight", Range{0.0, 1000.0}, "",
-        "how much dearer a metre without any clearance is besides");
 }
 
 /// From polygon to polygon, and at each vertex round the fan of those that meet there.
@@ -201,7 +192,7 @@ double GuideCost::measure(Point a, Point b, double most) const {
     left_ -= step;
     if (spare >= preferred()) return true;
     const double missing = 1.0 - spare / preferred();
-    cost += step * (config_.clearance_weight * missing * missing + tight_price(spare));
+    cost += step * (config_.kClearanceWeight * missing * missing + tight_price(spare));
     return cost <= most;
   });
   return cost;
@@ -256,12 +247,12 @@ double GuideCost::turn(Point before, Point at, Point after) const {
   const double cosine = dot(a, b) / lengths;
   const double sine = std::abs(cross(a, b)) / lengths;
   const bool bend = cosine > 0.0 && sine < std::sin(kBend);
-  return config_.turn_price *
+  return config_.kTurnPrice *
          (bend ? at_bend * sine / std::sin(kBend) : 0.5 + 0.5 * (1.0 - cosine));
 }
 
 double GuideCost::haste(Point a, Point b) const {
-  return config_.turn_price * std::max(0.0, 1.0 - distance(a, b) / kShortLeg);
+  return config_.kTurnPrice * std::max(0.0, 1.0 - distance(a, b) / kShortLeg);
 }
 
 double GuideCost::at_corners(const Path& path) const {

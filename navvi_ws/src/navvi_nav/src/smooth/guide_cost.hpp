@@ -13,11 +13,16 @@ namespace navvi_nav::smooth {
 /// What a guide path costs a person, in metres of free way: the one measure by which paths are
 /// chosen, moved and kept.
 struct GuideCostConfig {
-  double turn_price = 2.0;
+  /// m, length a path may gain to save a turn by 90 degrees; half of it for a slight turn, 1.5 for
+  /// one back
+  static constexpr double kTurnPrice = 2.0;
   double preferred_clearance = 0.6;
-  double clearance_weight = 3.0;
-  double tight = 0.2;
-  double tight_weight = 20.0;
+  /// how much dearer a metre without any preferred clearance is
+  static constexpr double kClearanceWeight = 3.0;
+  /// m, clearance beyond the robot's radius below which the price rises steeply
+  static constexpr double kTight = 0.2;
+  /// how much dearer a metre without any clearance is besides
+  static constexpr double kTightWeight = 20.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -84,7 +89,7 @@ class GuideCost {
   [[nodiscard]] double measure(Point a, Point b, double most) const;
   /// Of a metre with so much clearance beyond the radius.
   [[nodiscard]] double tight_price(double spare) const {
-    return config_.tight_weight * std::max(0.0, 1.0 - spare / config_.tight);
+    return config_.kTightWeight * std::max(0.0, 1.0 - spare / config_.kTight);
   }
 
   GuideCostConfig config_;

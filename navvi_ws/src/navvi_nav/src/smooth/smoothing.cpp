@@ -75,7 +75,7 @@ class Settling {
   void add(std::size_t i) {
     const Point a = path_[i];
     const Point leg = path_[i + 1] - a;
-    if (cost_.leg(a, path_[i + 1]) - norm(leg) < 0.5 * cost_.config().turn_price) return;
+    if (cost_.leg(a, path_[i + 1]) - norm(leg) < 0.5 * cost_.config().kTurnPrice) return;
     const Point aside = unit({-leg.y, leg.x});
     for (const double share : cost_.near_places(a, path_[i + 1])) {
       for (const double by : {0.2, -0.2}) {
@@ -159,18 +159,7 @@ Path pushed(const Path& path, const GuideCost& cost) {
 }  // namespace
 
 void SmoothingConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
   visit(enabled, "enabled", navvi_config::Any{}, "", "false: the path is the funnel's");
-  visit(attempts, "attempts", Range{0, 100}, "",
-        "how often OMPL tries to leave out each corner, on the mean, in each of three rounds");
-  visit(
-      effort, "effort", Range{0.0, 10000.0}, "",
-      "metres of legs that may be measured for each metre of the shortest path; a node that a "
-      "search expands counts as 1.2 m, those for the shortest path as four fifths of all at most");
-  visit(max_stretch, "max_stretch", Range{1.0, 5.0}, "", "longest guide path, times the shortest");
-  visit(max_detour, "max_detour", Range{0.0, 20.0}, "m", "or so much longer than the shortest");
-  visit(keep, "keep", Range{0.0, 100.0}, "m",
-        "a new path must cost so much less than one that keeps the corners of the path so far");
   cost.describe(visit);
 }
 

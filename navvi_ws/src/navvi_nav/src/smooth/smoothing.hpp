@@ -8,11 +8,15 @@ namespace navvi_nav::smooth {
 
 struct SmoothingConfig {
   bool enabled = true;
+  /// how often OMPL tries to leave out each corner, on the mean, in each of three rounds
   int attempts = 2;
+  /// metres of legs that may be measured for each metre of the shortest path; a node that a search
+  /// expands counts as 1.2 m, those for the shortest path as four fifths of all at most
   double effort = 95.0;
-  double max_stretch = 1.25;
-  double max_detour = 2.0;
-  double keep = 6.0;
+  static constexpr double kMaxStretch = 1.25;  ///< longest guide path, times the shortest
+  static constexpr double kMaxDetour = 2.0;    ///< m, or so much longer than the shortest
+  /// m, a new path must cost so much less than one that keeps the corners of the path so far
+  static constexpr double kKeep = 6.0;
   GuideCostConfig cost;
 
   void describe(navvi_config::Visitor& visit);

@@ -238,7 +238,8 @@ void tell(std::string sentence) {
 guide::NavigatorConfig config_of(const Options& options) {
   guide::NavigatorConfig config;
   if (!options.config.empty())
-    navvi_config::read(config, navvi_config::load_yaml(options.config), options.config);
+    navvi_config::read(config, navvi_config::load_yaml(options.config), options.config,
+                       navvi_config::Removed::ignored);
   navvi_config::read(config, navvi_config::read_words(options.parameters), "the command line");
   if (options.stage == Stage::search) config.planner.smoothing.enabled = false;
   return config;

@@ -13,21 +13,8 @@ constexpr double kTremor = 0.3;  // s, over which the noise of a hand is alike
 }  // namespace
 
 void DrivingConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
   visit(faults, "faults", navvi_config::Any{}, "",
         "false: the hand is steady, holds its heading and knows the robot exactly");
-  visit(cruise, "cruise", Range{0.05, 1.0}, "", "stick on a straight way: the speed that is liked");
-  visit(slow, "slow", Range{0.05, 1.0}, "", "stick when something is near");
-  visit(turn_rate, "turn_rate", Range{0.1, 5.0}, "rad/s", "believed, at full stick");
-  visit(full_speed, "full_speed", Range{0.1, 5.0}, "m/s", "believed, at full stick");
-  visit(dead_zone, "dead_zone", Range{0.0, 0.5}, "", "believed, of the stick");
-  visit(expo, "expo", Range{0.0, 1.0}, "", "believed, of the stick: 0 linear, 1 cubic");
-  visit(gain_error, "gain_error", Range{0.0, 0.5}, "",
-        "standard deviation, over people, of how wrong these beliefs are");
-  visit(noise, "noise", Range{0.0, 0.5}, "", "standard deviation of a stick that is held");
-  visit(veer, "veer", Range{0.0, 20.0}, "deg/m", "to one side, the same all the way");
-  visit(veer_spread, "veer_spread", Range{0.0, 20.0}, "deg",
-        "standard deviation, over a metre, of what comes besides");
 }
 
 Driving::Driving(const DrivingConfig& config, std::uint64_t person, std::uint64_t occasion)
@@ -43,9 +30,9 @@ Driving::Driving(const DrivingConfig& config, std::uint64_t person, std::uint64_
 }
 
 double Driving::shaped(double stick) const {
-  const double beyond = (std::abs(stick) - config_.dead_zone) / (1.0 - config_.dead_zone);
+  const double beyond = (std::abs(stick) - config_.kDeadZone) / (1.0 - config_.kDeadZone);
   if (beyond <= 0.0) return 0.0;
-  const double curved = (1.0 - config_.expo) * beyond + config_.expo * beyond * beyond * beyond;
+  const double curved = (1.0 - config_.kExpo) * beyond + config_.kExpo * beyond * beyond * beyond;
   return std::copysign(curved, stick);
 }
 

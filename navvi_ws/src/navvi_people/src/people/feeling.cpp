@@ -18,17 +18,11 @@ double most(const Felt& felt) { return std::max(felt.left, felt.right); }
 }  // namespace
 
 void FeelingConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
   visit(faults, "faults", navvi_config::Any{}, "",
         "false: every pattern is recognised, and delays are all alike");
   visit(motors, "motors", navvi_config::Any{}, "", "feels the motors");
   visit(touch, "touch", navvi_config::OneOf{{"repulsive", "attractive"}}, "",
         "what the person was told that a motor means, as feedback/haptics/steer");
-  visit(threshold, "threshold", Range{0.0, 1.0}, "", "weaker motors are not felt");
-  visit(delay, "delay", Range{0.0, 5.0}, "s", "from a motor to the hand, the median");
-  visit(spread, "spread", Range{0.0, 1.0}, "", "standard deviation of its logarithm");
-  visit(recognised, "recognised", Range{0.0, 1.0}, "", "share of patterns");
-  visit(strong, "strong", Range{0.0, 1.0}, "", "motors above this on both sides slow the hand");
 }
 
 void Feeling::feel(const Felt& felt, double time) {

@@ -12,27 +12,10 @@ constexpr double kAside = 0.3;      // of both sides: more to one is from there
 }  // namespace
 
 void HearingConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
   visit(faults, "faults", navvi_config::Any{}, "",
         "false: nothing is missed or mistaken, and reactions are all alike");
   visit(words, "words", navvi_config::Any{}, "", "hears speech");
   visit(sounds, "sounds", navvi_config::Any{}, "", "hears short sounds");
-  visit(word_reaction, "word_reaction", Range{0.0, 5.0}, "s",
-        "from the end of a sentence to the hand, the median");
-  visit(word_spread, "word_spread", Range{0.0, 1.0}, "",
-        "standard deviation of its logarithm, from sentence to sentence");
-  visit(sound_reaction, "sound_reaction", Range{0.0, 5.0}, "s",
-        "from the onset of a short sound to the hand, the median");
-  visit(sound_spread, "sound_spread", Range{0.0, 1.0}, "",
-        "standard deviation of its logarithm, from sound to sound");
-  visit(missed_words, "missed_words", Range{0.0, 1.0}, "", "share of sentences");
-  visit(missed_sounds, "missed_sounds", Range{0.0, 1.0}, "", "share of short sounds");
-  visit(misheard, "misheard", Range{0.0, 1.0}, "", "share of hours taken for the next one");
-  visit(mirrored, "mirrored", Range{0.0, 1.0}, "", "share of sides taken for the other");
-  visit(masked, "masked", Range{0.0, 1.0}, "",
-        "share of short sounds that speech or another sound covers");
-  visit(fastest_speech, "fastest_speech", Range{5.0, 100.0}, "1/s",
-        "letters that are followed; at twice as many no sentence is");
 }
 
 std::optional<Hearing::Sentence> Hearing::words(const std::string& text, double lasted) {

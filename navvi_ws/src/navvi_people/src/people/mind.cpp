@@ -16,13 +16,10 @@ constexpr double kSecondsAMinute = 60.0;
 void MemoryConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(faults, "faults", navvi_config::Any{}, "", "false: every turn is kept in mind");
-  visit(lost, "lost", Range{0.0, 1.0}, "",
-        "share of second turns that are lost, told at once after a first, at a stick of 0.8");
-  visit(span, "span", Range{0.1, 30.0}, "s", "after which a first turn is no longer in the way");
 }
 
 bool Memory::keeps(double speed, double time) {
-  const double free = std::clamp((time - told_) / config_.span, 0.0, 1.0);
+  const double free = std::clamp((time - told_) / config_.kSpan, 0.0, 1.0);
   const double quick = speed / kUsualSpeed;
   const bool lost = random_.chance(config_.lost * (1.0 - free) * quick * quick);
   if (config_.faults && lost) return false;
@@ -33,12 +30,6 @@ bool Memory::keeps(double speed, double time) {
 void AttentionConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(faults, "faults", navvi_config::Any{}, "", "false: never distracted, never gives up");
-  visit(distractions, "distractions", Range{0.0, 30.0}, "1/min", "times that nothing is taken in");
-  visit(distracted, "distracted", Range{0.0, 30.0}, "s", "each");
-  visit(patience, "patience", Range{1.0, 60.0}, "s", "of silence while driving before asking");
-  visit(idle_patience, "idle_patience", Range{0.5, 60.0}, "s",
-        "of silence while waiting before asking");
-  visit(gives_up, "gives_up", Range{10.0, 3600.0}, "s", "of standing, and then gives up");
 }
 
 void Attention::update(bool moves, double time, double dt) {
@@ -54,10 +45,6 @@ void LearningConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(on, "on", navvi_config::Any{}, "", "false: every route is the first");
   visit(routes, "routes", Range{1, 1000}, "", "driven, this one too");
-  visit(rate, "rate", Range{0.0, 1.0}, "",
-        "exponent: reactions and errors are routes to the power of minus this");
-  visit(bias_rate, "bias_rate", Range{0.0, 1.0}, "",
-        "of what words leave a turn short by, taken into the next");
 }
 
 double Learning::factor() const {
@@ -67,7 +54,7 @@ double Learning::factor() const {
 void Learning::turned(double angle, double rest) {
   if (!config_.on || std::abs(rest) > kMostResidual) return;
   bias_ =
-      std::clamp(bias_ + config_.bias_rate * (angle > 0.0 ? rest : -rest), -kMostBias, kMostBias);
+      std::clamp(bias_ + config_.kBiasRate * (angle > 0.0 ? rest : -rest), -kMostBias, kMostBias);
 }
 
 }  // namespace navvi_people::people

@@ -285,9 +285,9 @@ TEST(Types, are_in_order_in_every_trait_and_what_is_set_besides_stays) {
     EXPECT_TRUE(up || down) << trait.name;
   }
   SimulatedOperatorConfig config;
-  navvi_config::read(
-      config, navvi_config::read_words({"hearing/missed_words:=0.5", "type:=struggling"}), "test");
-  EXPECT_EQ(config.hearing.missed_words, 0.5);
+  navvi_config::read(config,
+                     navvi_config::read_words({"hearing/words:=false", "type:=struggling"}), "test");
+  EXPECT_FALSE(config.hearing.words);
   EXPECT_EQ(config.hearing.missed_sounds, person("struggling").hearing.missed_sounds);
   SimulatedOperatorConfig shipped;
   SimulatedOperatorConfig able = person("typical");

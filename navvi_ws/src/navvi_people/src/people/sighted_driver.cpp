@@ -50,15 +50,15 @@ StickAndButtons SightedDriver::update(const Sight& sight, double time, double dt
     return {};
   }
   const double off = way.steer_angle;
-  const double full = driving_.shaped(config_.cruise) * config_.full_speed;
+  const double full = driving_.shaped(config_.cruise) * config_.kFullSpeed;
   const double bend = std::max(0.0, 1.0 - std::abs(off) / kOnTheSpot);
   StickAndButtons hand;
-  hand.left = stick_for(-kSteers * off / config_.turn_rate);
+  hand.left = stick_for(-kSteers * off / config_.kTurnRate);
   const std::vector<navvi_types::NearThing>& nearby = seen_.front().sight.nearby;
   double speed = allowed(nearby, kHalfLane, bend * full);
   if (speed > 0.0) halted_ = time;
   if (time - halted_ > kPatience) speed = std::min(kCreep, allowed(nearby, kSqueezes, bend * full));
-  hand.forward = stick_for(speed / config_.full_speed);
+  hand.forward = stick_for(speed / config_.kFullSpeed);
   if (std::abs(off) > kOnTheSpot) hand.forward = 0.0;
   hand.left = driving_.trembling(hand.left, dt);
   hand.forward = driving_.trembling(hand.forward, dt);

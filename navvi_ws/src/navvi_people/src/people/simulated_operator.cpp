@@ -88,8 +88,6 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   visit.group("memory", memory);
   visit.group("attention", attention);
   visit.group("learning", learning);
-  visit(trust, "trust", navvi_config::Range{1.0, 100.0}, "m",
-        "driven on without a word after a turn that a sound has ended; assumed");
 }
 
 SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
@@ -130,7 +128,7 @@ void SimulatedOperator::follow(const Tone& tone, double time) {
       return follow_tick(tone, time);
     case Earcon::on_course:
       when_.news = time;
-      course_.stop_at = std::max(course_.stop_at, at_.odometer + 0.5 * config_.trust);
+      course_.stop_at = std::max(course_.stop_at, at_.odometer + 0.5 * config_.kTrust);
       return;
     case Earcon::turn_stop:
       return stop_turn(time);
@@ -172,7 +170,7 @@ void SimulatedOperator::stop_turn(double time) {
   mode_ = Mode::driving;
   course_.target = at_.heading;
   course_.straight_before = true;
-  course_.stop_at = std::max(course_.stop_at, at_.odometer + config_.trust);
+  course_.stop_at = std::max(course_.stop_at, at_.odometer + config_.kTrust);
   course_.speed = config_.driving.cruise;
 }
 
@@ -184,7 +182,7 @@ StickAndButtons SimulatedOperator::turn_by_ear(double time) const {
   hand.left = side * (large ? 1.0 : 0.55);
   if (large || at_.odometer >= course_.stop_at) return hand;
   hand.forward =
-      time < when_.careful_until ? 0.5 * config_.driving.slow : 0.7 * config_.driving.slow;
+      time < when_.careful_until ? 0.5 * config_.driving.kSlow : 0.7 * config_.driving.kSlow;
   return hand;
 }
 
@@ -272,10 +270,10 @@ void SimulatedOperator::turn_to(const Sentence& sentence, const Instruction& ins
   course_.target = sentence.at.heading - turning_.made((angle + learnt) * driving_.turn_gain());
   const bool far = instruction.distance.value_or(0.0) > kListenFirst;
   course_.turn_speed =
-      std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.driving.slow * 0.7 : 0.0;
+      std::abs(angle) < 0.4 && far && mode_ == Mode::driving ? config_.driving.kSlow * 0.7 : 0.0;
   mode_ = Mode::turning;
   go_for(sentence, instruction);
-  course_.speed = std::min(course_.speed, 0.5 * (config_.driving.slow + config_.driving.cruise));
+  course_.speed = std::min(course_.speed, 0.5 * (config_.driving.kSlow + config_.driving.cruise));
 }
 
 void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& instruction) {
@@ -283,7 +281,7 @@ void SimulatedOperator::go_for(const Sentence& sentence, const Instruction& inst
   const double begun = mode_ == Mode::turning ? at_.odometer : sentence.at.odometer;
   course_.stop_at = std::max(begun + distance, at_.odometer + 0.6);
   course_.speed =
-      course_.stop_at - at_.odometer > 3.0 ? config_.driving.cruise : config_.driving.slow;
+      course_.stop_at - at_.odometer > 3.0 ? config_.driving.cruise : config_.driving.kSlow;
 }
 
 void SimulatedOperator::veer(Instruction::Side side, double angle, double until) {
@@ -352,7 +350,7 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
 void SimulatedOperator::expect_turn(const Sentence& sentence, const Instruction& turn) {
   course_.stop_at = sentence.at.odometer + turn.distance.value_or(kBlindTurn);
   if (course_.stop_at - at_.odometer < 3.0)
-    course_.speed = std::min(course_.speed, config_.driving.slow);
+    course_.speed = std::min(course_.speed, config_.driving.kSlow);
 }
 
 void SimulatedOperator::follow(const Sentence& sentence, const Instruction& instruction,
@@ -408,12 +406,12 @@ StickAndButtons SimulatedOperator::drive(double time) const {
   StickAndButtons hand;
   // Near a corner the hand waits for the end of a sentence.
   if (ears_.listen() && course_.stop_at - at_.odometer < kListenFirst) return hand;
-  const double slow = config_.driving.slow;
+  const double slow = config_.driving.kSlow;
   double speed = time < when_.careful_until ? std::min(course_.speed, slow) : course_.speed;
   if (course_.stop_at - at_.odometer < kNearTheEnd) speed = std::min(speed, slow);
   const bool repulsive = config_.feeling.touch == "repulsive";
   const double both = std::min(pull_.felt.left, pull_.felt.right);
-  const double strong = config_.feeling.strong;
+  const double strong = config_.feeling.kStrong;
   if (repulsive && both > strong)
     speed = std::min(speed, slow * (1.0 - 0.5 * (both - strong) / std::max(0.05, 1.0 - strong)));
   double aim = course_.target + (time < course_.veer_until ? course_.veer : 0.0);
@@ -442,7 +440,7 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
   }
   if (mode_ == Mode::turning) {
     const double error = course_.target - at_.heading;
-    if (std::abs(error) < std::max(0.02, 0.6 * config_.driving.turn_rate * dt)) {
+    if (std::abs(error) < std::max(0.02, 0.6 * config_.driving.kTurnRate * dt)) {
       mode_ = Mode::driving;
     } else {
       hand.left = std::copysign(1.0, error);
@@ -474,8 +472,8 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
 void SimulatedOperator::go_ahead() {
   mode_ = Mode::driving;
   course_.target = at_.heading;
-  course_.stop_at = at_.odometer + 0.5 * config_.trust;
-  course_.speed = config_.driving.slow;
+  course_.stop_at = at_.odometer + 0.5 * config_.kTrust;
+  course_.speed = config_.driving.kSlow;
 }
 
 void SimulatedOperator::ask_when_lost(double time) {
@@ -523,8 +521,8 @@ void SimulatedOperator::follow_what_is_due(double time) {
 
 void SimulatedOperator::believe(const StickAndButtons& hand, double dt) {
   const DrivingConfig& driving = config_.driving;
-  const double driven = driving_.shaped(hand.forward) * driving.full_speed * dt;
-  at_.heading += driving_.shaped(hand.left) * driving.turn_rate * dt;
+  const double driven = driving_.shaped(hand.forward) * driving.kFullSpeed * dt;
+  at_.heading += driving_.shaped(hand.left) * driving.kTurnRate * dt;
   if (mode_ == Mode::driving && hand.forward > 0.0) at_.heading += driving_.veered(driven);
   at_.odometer += driven * driving_.speed_gain();
 }

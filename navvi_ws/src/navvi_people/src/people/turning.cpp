@@ -13,15 +13,7 @@ constexpr double kSlight = 60.0 * kDegree;  // the border of the classes
 }  // namespace
 
 void TurningConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
   visit(faults, "faults", navvi_config::Any{}, "", "false: turns are as long as they should be");
-  visit(over_slight, "over_slight", Range{-45.0, 90.0}, "deg",
-        "turned too far by words, turns of 22.5 to 60 deg, the mean");
-  visit(over_ample, "over_ample", Range{-45.0, 90.0}, "deg", "likewise, turns of 60 deg and more");
-  visit(over_spread, "over_spread", Range{0.0, 45.0}, "deg", "standard deviation, turn by turn");
-  visit(stop_delay, "stop_delay", Range{0.0, 2.0}, "s",
-        "from the decision to stop a turn to the hand, the median");
-  visit(stop_spread, "stop_spread", Range{0.0, 1.0}, "", "standard deviation of its logarithm");
 }
 
 double Turning::made(double angle) {

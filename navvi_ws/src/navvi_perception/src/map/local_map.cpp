@@ -90,12 +90,6 @@ void MapConfig::describe(navvi_config::Visitor& visit) {
   visit(low, "low", Range{0.01, 0.5}, "m", "above the floor; what ends lower is floor");
   visit(high, "high", Range{0.2, 5.0}, "m",
         "above the floor; what begins higher is over the robot's head");
-  visit(hit, "hit", Range{0.51, 0.99}, "", "probability that what a ray meets is there");
-  visit(miss, "miss", Range{0.01, 0.49}, "", "probability that what a ray passes is there");
-  visit(slack, "slack", Range{0.0, 1.0}, "m",
-        "what is seen so near a thing of the prior map belongs to it");
-  visit(forget, "forget", Range{1.0, 1e6}, "s",
-        "in which a sure voxel is forgotten that is not seen again");
 }
 
 sight::Prior prior_of(const std::string& file, const MapConfig& config) {
@@ -178,8 +172,8 @@ struct LocalMap::Trees {
 
 LocalMap::LocalMap(const MapConfig& config, const sight::Prior& prior)
     : config_(config), trees_(std::make_unique<Trees>(config.resolution)) {
-  trees_->seen.setProbHit(config.hit);
-  trees_->seen.setProbMiss(config.miss);
+  trees_->seen.setProbHit(config.kHit);
+  trees_->seen.setProbMiss(config.kMiss);
   know(prior);
 }
 
@@ -235,7 +229,7 @@ void LocalMap::know(const sight::Prior& prior) {
 }
 
 void LocalMap::widen_prior() {
-  const int reach = static_cast<int>(std::ceil(config_.slack / config_.resolution - kOnBorder));
+  const int reach = static_cast<int>(std::ceil(config_.kSlack / config_.resolution - kOnBorder));
   const auto at = [this](int x, int y) -> Prior& {
     return prior_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
                   static_cast<std::size_t>(x)];

@@ -20,10 +20,11 @@ struct MapConfig {
   double floor = 0.0;        ///< m, z of the floor in map
   double low = 0.04;         ///< m above the floor; what ends lower is floor
   double high = 0.8;         ///< m above the floor; what begins higher does not matter
-  double hit = 0.7;          ///< probability that what a ray meets is there
-  double miss = 0.4;         ///< probability that what a ray passes is there
-  double slack = 0.1;        ///< m; what is seen so near a thing of the prior map belongs to it
-  double forget = 60.0;      ///< s, in which a sure voxel is forgotten that is not seen again
+  static constexpr double kHit = 0.7;   ///< probability that what a ray meets is there
+  static constexpr double kMiss = 0.4;  ///< probability that what a ray passes is there
+  /// m, what is seen so near a thing of the prior map belongs to it
+  static constexpr double kSlack = 0.1;
+  double forget = 60.0;  ///< s, in which a sure voxel is forgotten that is not seen again
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -44,7 +44,7 @@ struct NodeConfig {
   std::string prior;         ///< a file with an OctoMap; empty: the topic map is listened to
   std::string bumper;        ///< empty: none
   double cloud_rate = 10.0;  ///< Hz
-  int cloud_points = 20000;
+  int cloud_points = 20000;  ///< of a cloud that are used at most, evenly spread
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Any;
@@ -65,8 +65,6 @@ struct NodeConfig {
     visit(bumper, "bumper", Any{}, "",
           "topic with std_msgs/Bool, true while something is touched; empty: contacts are unknown");
     visit(cloud_rate, "cloud_rate", Range{0.1, 100.0}, "Hz", "clouds that come faster are skipped");
-    visit(cloud_points, "cloud_points", Range{100, 1000000}, "",
-          "of a cloud that are used at most, evenly spread");
   }
 };
 

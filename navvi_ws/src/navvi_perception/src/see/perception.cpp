@@ -28,14 +28,15 @@ struct PerceptionConfig::Values {
   map::MapConfig map;
   tracks::TrackConfig tracks;
   double robot_radius = 0.35;     ///< m; what is nearer than this is the robot itself
-  double detection_radius = 5.0;  ///< m
-  double gap = 0.6;               ///< m, between points of one thing, as the tips of a fork
-  int points = 3;                 ///< of a thing, at least
-  double narrowest = 0.25;        ///< m, radius of a moving thing at least
-  double widest = 3.5;            ///< m; what is longer does not move
+  double detection_radius = 5.0;  ///< m, gap up to which things are reported as near
+  static constexpr double kGap = 0.6;  ///< m, points no farther apart are one thing
+  int points = 3;                      ///< least points of a thing that may move
+  static constexpr double kNarrowest = 0.25;  ///< m, least radius of a thing that may move
+  static constexpr double kWidest = 3.5;      ///< m, what is longer does not move
   double wall = 2.0;              ///< m; what stands and is longer is called a wall
-  double map_rate = 2.5;          ///< Hz, at most, at which a sensor's sights go into the map
-  double period = 1.0;            ///< s
+  /// Hz, at most, at which a sensor's sights go into the map
+  static constexpr double kMapRate = 2.5;
+  double period = 1.0;  ///< s, least time between two maps
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Range;
@@ -43,17 +44,8 @@ struct PerceptionConfig::Values {
     visit.group("tracks", tracks);
     visit(robot_radius, "robot_radius", Range{0.05, 3.0}, "m",
           "of the robot's hull; what is nearer to its middle is the robot itself");
-    visit(detection_radius, "detection_radius", Range{0.5, 20.0}, "m",
-          "gap up to which things are reported as near");
-    visit(gap, "gap", Range{0.05, 2.0}, "m", "points no farther apart are one thing");
-    visit(points, "points", Range{1, 100}, "", "least points of a thing that may move");
-    visit(narrowest, "narrowest", Range{0.05, 2.0}, "m", "least radius of a thing that may move");
-    visit(widest, "widest", Range{0.5, 15.0}, "m", "what is longer does not move");
     visit(wall, "wall", Range{0.5, 100.0}, "m",
           "what stands and is at least so long is called a wall, a rack too; all else is other");
-    visit(map_rate, "map_rate", Range{0.1, 100.0}, "Hz",
-          "at most, at which a sensor's sights go into the map");
-    visit(period, "period", Range{0.1, 60.0}, "s", "least time between two maps");
   }
 };
 
@@ -117,7 +109,7 @@ std::vector<Eigen::Vector3d> Perception::Parts::strange(const sight::Sight& sigh
                                             [&](const tracks::Track& track) {
                                               return track.mover && lower.tracker.sure(track) &&
                                                      (hit - track.place).norm() <
-                                                         track.radius + config.gap;
+                                                         track.radius + config.kGap;
                                             });
                        });
   };
@@ -157,10 +149,10 @@ void Perception::take(const sight::Sight& sight) {
   stands.hits.clear();
   const std::vector<Eigen::Vector3d> points = parts.strange(sight, stands.hits);
   std::vector<clusters::Cluster> found =
-      clusters::clusters_of(points, config.gap, static_cast<std::size_t>(config.points),
-                            config.narrowest, sight.origin.head<2>());
+      clusters::clusters_of(points, config.kGap, static_cast<std::size_t>(config.points),
+                            config.kNarrowest, sight.origin.head<2>());
   const auto large = std::partition(found.begin(), found.end(), [&](const clusters::Cluster& one) {
-    return one.length <= config.widest;
+    return one.length <= config.kWidest;
   });
   const auto add = [&](const clusters::Cluster& cluster) {
     for (const std::size_t i : cluster.members) stands.hits.push_back(points[i]);
@@ -172,7 +164,7 @@ void Perception::take(const sight::Sight& sight) {
   for (std::size_t i = 0; i < found.size(); ++i)
     if (sensor.tracker.now()[tracks[i]].settled) add(found[i]);
 
-  if (seconds(sight.stamp - sensor.mapped) * config.map_rate < 1.0 - 1e-6) return;
+  if (seconds(sight.stamp - sensor.mapped) * config.kMapRate < 1.0 - 1e-6) return;
   sensor.mapped = sight.stamp;
   parts.map.insert(stands);
   parts.map_new = parts.untold = true;
@@ -220,7 +212,7 @@ void Perception::Parts::look_up(const navvi_types::Pose2& robot) {
   map_new = false;
   looked_up = robot.position;
   const double reach = config.detection_radius + config.robot_radius + 2.0 * kShift;
-  const int apart = std::max(1, static_cast<int>(config.gap / map.resolution()));
+  const int apart = std::max(1, static_cast<int>(config.kGap / map.resolution()));
   (void)standing.update(map.standing(robot.position, reach), apart, next_id);
 }
 

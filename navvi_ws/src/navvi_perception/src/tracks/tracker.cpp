@@ -14,23 +14,12 @@ constexpr double kWidens = 0.3;    // of the difference, in which a radius follo
 
 void TrackConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit(gate, "gate", Range{0.1, 5.0}, "m",
-        "farther from where it was expected a thing is another one");
-  visit(keep, "keep", Range{0.1, 30.0}, "s", "a thing is expected that is not seen");
-  visit(sightings, "sightings", Range{1, 100}, "", "after which a thing is told");
   visit(noise, "noise", Range{0.005, 1.0}, "m", "standard deviation of a measured middle");
-  visit(agility, "agility", Range{0.1, 20.0}, "m/s^2", "standard deviation of an acceleration");
-  visit(moved, "moved", Range{0.05, 5.0}, "m",
-        "at least, and its own radius, from where it was first: it is a mover");
-  visit(speed, "speed", Range{0.02, 2.0}, "m/s", "below which a mover stands");
-  visit(settle, "settle", Range{0.5, 600.0}, "s",
-        "after which what never moved belongs to what stands");
-  visit(rest, "rest", Range{0.5, 3600.0}, "s", "likewise of a mover that stands");
 }
 
 void Tracker::predict(Track& track, double dt) const {
   track.place += dt * track.velocity;
-  const double push = config_.agility * config_.agility;
+  const double push = config_.kAgility * config_.kAgility;
   track.spread += dt * (2.0 * track.both + dt * track.drift) + 0.25 * push * std::pow(dt, 4);
   track.both += dt * track.drift + 0.5 * push * std::pow(dt, 3);
   track.drift += push * dt * dt;
@@ -54,14 +43,14 @@ void Tracker::correct(Track& track, const clusters::Cluster& cluster, double tim
 
 /// Whether it moves, moved, or belongs to what stands.
 void Tracker::judge(Track& track, double time) const {
-  const bool fast = track.velocity.norm() > config_.speed;
-  const bool away = (track.place - track.born).norm() > std::max(config_.moved, track.radius);
+  const bool fast = track.velocity.norm() > config_.kSpeed;
+  const bool away = (track.place - track.born).norm() > std::max(config_.kMoved, track.radius);
   if (fast && away) track.mover = true;
   if (track.mover ? fast : away) {
     track.still = time;
     track.born = track.place;
   }
-  track.settled = time - track.still > (track.mover ? config_.rest : config_.settle);
+  track.settled = time - track.still > (track.mover ? config_.kRest : config_.kSettle);
 }
 
 std::vector<std::size_t> Tracker::update(const std::vector<clusters::Cluster>& clusters,
@@ -71,14 +60,14 @@ std::vector<std::size_t> Tracker::update(const std::vector<clusters::Cluster>& c
   time_ = time;
   tracks_.erase(
       std::remove_if(tracks_.begin(), tracks_.end(),
-                     [&](const Track& track) { return time - track.seen > config_.keep; }),
+                     [&](const Track& track) { return time - track.seen > config_.kKeep; }),
       tracks_.end());
 
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;  // m, cluster, track
   for (std::size_t c = 0; c < clusters.size(); ++c)
     for (std::size_t t = 0; t < tracks_.size(); ++t) {
       const double apart = (clusters[c].centre - tracks_[t].place).norm();
-      if (apart < std::max(config_.gate, tracks_[t].radius)) pairs.emplace_back(apart, c, t);
+      if (apart < std::max(config_.kGate, tracks_[t].radius)) pairs.emplace_back(apart, c, t);
     }
   std::sort(pairs.begin(), pairs.end());
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -10,15 +10,18 @@
 namespace navvi_perception::tracks {
 
 struct TrackConfig {
-  double gate = 0.9;     ///< m, farther from where it was expected a thing is another one
-  double keep = 1.0;     ///< s, a thing is expected that is not seen
-  int sightings = 3;     ///< after which it is told
+  /// m, farther from where it was expected a thing is another one
+  static constexpr double kGate = 0.9;
+  static constexpr double kKeep = 1.0;  ///< s, a thing is expected that is not seen
+  static constexpr int kSightings = 3;  ///< after which a thing is told
   double noise = 0.08;   ///< m, standard deviation of a measured middle
-  double agility = 1.5;  ///< m/s^2, standard deviation of its acceleration
-  double moved = 0.3;    ///< m, and its own radius, from where it was first: it is a mover
-  double speed = 0.2;    ///< m/s, below which a mover stands
-  double settle = 3.0;   ///< s, after which what never moved belongs to what stands
-  double rest = 20.0;    ///< s, likewise of a mover that stands
+  static constexpr double kAgility = 1.5;  ///< m/s^2, standard deviation of an acceleration
+  /// m, at least, and its own radius, from where it was first: it is a mover
+  static constexpr double kMoved = 0.3;
+  static constexpr double kSpeed = 0.2;  ///< m/s, below which a mover stands
+  /// s, after which what never moved belongs to what stands
+  static constexpr double kSettle = 3.0;
+  static constexpr double kRest = 20.0;  ///< s, likewise of a mover that stands
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -55,11 +58,11 @@ class Tracker {
   [[nodiscard]] const std::vector<Track>& now() const { return tracks_; }
   /// True if it is to be told.
   [[nodiscard]] bool sure(const Track& track) const {
-    return track.sightings >= config_.sightings && !track.settled;
+    return track.sightings >= config_.kSightings && !track.settled;
   }
   /// True if it moves now.
   [[nodiscard]] bool drives(const Track& track) const {
-    return track.mover && track.velocity.norm() > config_.speed;
+    return track.mover && track.velocity.norm() > config_.kSpeed;
   }
 
  private:

@@ -19,12 +19,14 @@ struct Instant {
 
 struct CommandGateConfig {
   double timeout = 0.25;
-  double neutral_hold = 0.30;
-  double neutral_linear = 0.02;
-  double neutral_angular = 0.02;
+  /// s, how long the command must be neutral before the wheels move again
+  static constexpr double kNeutralHold = 0.30;
+  static constexpr double kNeutralLinear = 0.02;   ///< m/s, a slower command counts as neutral
+  static constexpr double kNeutralAngular = 0.02;  ///< rad/s, a slower command counts as neutral
   double max_linear = 1.5;
   double max_angular = 2.5;
-  double absurd_factor = 10.0;
+  /// commands beyond this many times a limit are rejected
+  static constexpr double kAbsurdFactor = 10.0;
   std::string driver;  ///< the node that may drive; empty: any, one at a time
 
   void describe(navvi_config::Visitor& visit);

@@ -35,10 +35,6 @@ void LayoutConfig::describe(navvi_config::Visitor& visit) {
   visit(pallet_robots, "pallet_robots", Range{0, 1000}, "", "on routes");
   visit(walking_workers, "walking_workers", Range{0, 1000}, "", "on routes");
   visit(standing_workers, "standing_workers", Range{0, 1000}, "", "who stand");
-  visit(forklift_speed, "forklift_speed", speed, "m/s", "of forklifts on their routes");
-  visit(pallet_robot_speed, "pallet_robot_speed", speed, "m/s", "of pallet robots on their routes");
-  visit(worker_speed, "worker_speed", speed, "m/s", "of workers who walk");
-  visit(pause, "pause", Range{0.0, 600.0}, "s", "of what moves, at docks and shelves");
 }
 
 const std::vector<Preset>& presets() {

@@ -36,10 +36,10 @@ struct LayoutConfig {
   int pallet_robots = 1;            ///< on routes
   int walking_workers = 2;          ///< workers on routes
   int standing_workers = 1;         ///< workers without a route
-  double forklift_speed = 1.0;      ///< m/s
-  double pallet_robot_speed = 0.7;  ///< m/s
-  double worker_speed = 0.8;        ///< m/s
-  double pause = 4.0;               ///< s, at docks and shelves
+  double forklift_speed = 1.0;      ///< m/s, of forklifts on their routes
+  double pallet_robot_speed = 0.7;  ///< m/s, of pallet robots on their routes
+  double worker_speed = 0.8;        ///< m/s, of workers who walk
+  double pause = 4.0;               ///< s, of what moves, at docks and shelves
 
   void describe(navvi_config::Visitor& visit);
 };

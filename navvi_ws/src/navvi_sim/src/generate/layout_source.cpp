@@ -46,10 +46,10 @@ LayoutSource read_layout(const std::filesystem::path& file) {
       throw WorldError(file.string() +
                        ": this is not a layout; it needs preset or layout, and may have name");
     LayoutFile content;
-    navvi_config::read(content, node, file.string());
+    navvi_config::read(content, node, file.string(), navvi_config::Removed::ignored);
     // Once more: what the file sets goes on top of the preset that it names.
     content.config = preset(content.start).value();
-    navvi_config::read(content, node, file.string());
+    navvi_config::read(content, node, file.string(), navvi_config::Removed::ignored);
     LayoutSource source{content.name.empty() ? file.stem().string() : content.name,
                         content.config,
                         file.string(),

@@ -21,14 +21,12 @@ constexpr double kMaxPushed = 3.0;  // m/s, the fastest a mover can shove the ro
 
 void WorldConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit(step, "step", Range{0.001, 0.01}, "s", "fixed time step");
   visit(ceiling, "ceiling", Range{0.5, 10.0}, "m",
         "what begins higher above the floor is not near the robot");
   visit(wait_for_robot, "wait_for_robot", navvi_config::Any{}, "",
         "the traffic stands until the robot is first driven, so that it is the same however long "
         "a person waits before that");
   visit.group("robot", robot);
-  visit.group("movers", movers);
 }
 
 /// What makes the world move.

@@ -19,14 +19,12 @@ double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle
 
 void ImperfectionsConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
-  visit(wheel_base, "wheel_base", Range{0.1, 2.0}, "m", "between the two wheels");
   visit(slip_left, "slip_left", Range{0.0, 0.9}, "",
         "share of its turning that the left wheel loses");
   visit(slip_right, "slip_right", Range{0.0, 0.9}, "",
         "share of its turning that the right wheel loses");
   visit(slip_noise, "slip_noise", Range{0.0, 0.5}, "",
         "standard deviation of what comes on top and goes, each wheel by itself");
-  visit(slip_time, "slip_time", Range{0.05, 10.0}, "s", "in which that comes and goes");
   visit(command_delay, "command_delay", Range{0.0, 2.0}, "s",
         "from a command to the wheels; an emergency stop is never late");
   visit(odometry_left, "odometry_left", Range{-0.2, 0.2}, "",

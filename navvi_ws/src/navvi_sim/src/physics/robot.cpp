@@ -21,18 +21,7 @@ void RobotConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(radius, "radius", Range{0.1, 1.0}, "m", "radius of the hull");
   visit(height, "height", Range{0.15, 2.0}, "m", "top of the hull above the floor");
-  visit(clearance, "clearance", Range{0.01, 0.1}, "m",
-        "underside of the hull above the floor; what is lower is driven over");
-  visit(mass, "mass", Range{1.0, 1000.0}, "kg", "mass of the robot");
   visit(max_speed, "max_speed", Range{0.05, 3.0}, "m/s", "largest speed, forward and back");
-  visit(acceleration, "acceleration", Range{0.1, 10.0}, "m/s^2", "towards a larger speed");
-  visit(deceleration, "deceleration", Range{0.1, 10.0}, "m/s^2", "towards a smaller speed");
-  visit(max_turn_rate, "max_turn_rate", Range{0.1, 6.0}, "rad/s", "largest rate of turn");
-  visit(angular_acceleration, "angular_acceleration", Range{0.1, 40.0}, "rad/s^2",
-        "of turning, both ways");
-  visit(brake, "brake", Range{1.0, 100.0}, "m/s^2", "deceleration when commands fail to come");
-  visit(angular_brake, "angular_brake", Range{1.0, 200.0}, "rad/s^2",
-        "angular deceleration when commands fail to come");
   visit.group("imperfections", imperfections);
 }
 

@@ -281,9 +281,6 @@ void ScenarioConfig::describe(navvi_config::Visitor& visit) {
         "least length of the way from start to goal where one of them is drawn; 0: 10 where the "
         "world permits");
   visit(max_route, "max_route", Range{0.0, 10000.0}, "m", "its greatest length; 0: any");
-  visit(min_turns, "min_turns", Range{0, kAnyTurns}, "",
-        "least number of its turns, of 30 degrees or more");
-  visit(max_turns, "max_turns", Range{0, kAnyTurns}, "", "most of its turns; 100: any");
 }
 
 int turns(const std::vector<Eigen::Vector2d>& polyline) {

@@ -17,30 +17,9 @@ constexpr double kDegree = navvi_types::radians(1.0);
 void LidarConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(rate, "rate", Range{0.5, 50.0}, "Hz", "scans a second");
-  visit(field, "field", Range{10.0, 360.0}, "degrees", "that a scan covers, its middle ahead");
-  visit(rays, "rays", Range{10, 10000}, "", "of a scan");
-  visit(x, "x", Range{-2.0, 2.0}, "m", "place in base_link");
   visit(height, "height", Range{0.02, 3.0}, "m", "above the floor");
-  visit(nearest, "nearest", Range{0.0, 5.0}, "m", "least range");
   visit(farthest, "farthest", Range{0.5, 200.0}, "m", "greatest range");
   visit(noise, "noise", Range{0.0, 1.0}, "m", "standard deviation of a range");
-  visit(dropouts, "dropouts", Range{0.0, 1.0}, "", "share of rays without a measurement");
-}
-
-void CameraConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(rate, "rate", Range{0.5, 50.0}, "Hz", "pictures a second");
-  visit(field, "field", Range{10.0, 150.0}, "degrees", "from left to right");
-  visit(columns, "columns", Range{2, 1280}, "", "pixels from left to right");
-  visit(rows, "rows", Range{2, 1024}, "", "pixels from top to bottom");
-  visit(x, "x", Range{-2.0, 2.0}, "m", "place in base_link");
-  visit(height, "height", Range{0.02, 3.0}, "m", "above the floor");
-  visit(pitch, "pitch", Range{-90.0, 90.0}, "degrees", "downwards");
-  visit(nearest, "nearest", Range{0.0, 5.0}, "m", "least range");
-  visit(farthest, "farthest", Range{0.5, 50.0}, "m", "greatest range");
-  visit(noise, "noise", Range{0.0, 0.5}, "m",
-        "standard deviation of a range at 1 m; it grows with the square of the range");
-  visit(dropouts, "dropouts", Range{0.0, 1.0}, "", "share of pixels without a measurement");
 }
 
 struct Sensor::Parts {

@@ -73,8 +73,6 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(start, "start", Any{}, "m, m, rad", "x,y,yaw of the robot; empty: drawn from the seed");
   visit(goal, "goal", Any{}, "m, m", "x,y of the goal; empty: drawn from the seed");
   visit(rate, "rate", Range{0.05, 50.0}, "", "simulated seconds per second of wall time");
-  visit(detection_radius, "detection_radius", Range{0.5, 20.0}, "m",
-        "gap up to which things are reported as near");
   life.describe(visit);
   visit(workers, "workers", navvi_config::OneOf{{"standing", "walking", "both"}}, "",
         "whether all workers of a layout stand, all walk a route, or both as the layout says");
@@ -85,7 +83,6 @@ void SimNodeConfig::describe(navvi_config::Visitor& visit) {
         "the sensors of the robot: none, as the truth is told; a lidar; or a lidar and a depth "
         "camera");
   visit.group("lidar", lidar);
-  visit.group("camera", camera);
 }
 
 read::Workers SimNodeConfig::worker_choice() const {

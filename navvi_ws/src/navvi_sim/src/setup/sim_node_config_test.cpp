@@ -27,10 +27,10 @@ TEST(SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
 TEST(SimNodeConfig, describes_itself_within_its_own_ranges) {
   SimNodeConfig config;
   navvi_config::read(config,
-                     YAML::Load("{workers: standing, movers: {yield: false}, "
+                     YAML::Load("{workers: standing, wait_for_robot: true, "
                                 "robot: {radius: 0.3}, gate: {timeout: 0.1}}"),
                      "test");
-  EXPECT_FALSE(config.life.movers.yield);
+  EXPECT_TRUE(config.life.wait_for_robot);
   EXPECT_EQ(config.gate.timeout, 0.1);
   EXPECT_THROW(navvi_config::read(config, YAML::Load("{robot: {radius: .nan}}"), "test"),
                navvi_config::ConfigError);

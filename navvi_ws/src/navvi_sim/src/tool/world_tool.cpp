@@ -89,7 +89,8 @@ Request load(const Words& words) {
   setup::SimNodeConfig& session = request.config.session;
   const std::string& spec = words.plain[1];
   if (const auto file = words.option("--config"))
-    navvi_config::read(session, navvi_config::load_yaml(*file), *file);
+    navvi_config::read(session, navvi_config::load_yaml(*file), *file,
+                       navvi_config::Removed::ignored);
   auto source = read::layout_source(spec);
   if (source) request.config.layout = source->config;
   const YAML::Node given = navvi_config::read_words(words.parameters);

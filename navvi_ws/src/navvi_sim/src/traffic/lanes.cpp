@@ -259,22 +259,6 @@ void LaneBuilder::place_users() {
 
 }  // namespace
 
-void MoversConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Any;
-  using navvi_config::Range;
-  visit(yield, "yield", Any{}, "",
-        "movers stop for the robot unless their route says otherwise; false: none does");
-  visit(acceleration, "acceleration", Range{0.1, 5.0}, "m/s^2",
-        "of movers, to faster and to slower, and sideways in curves");
-  visit(turn_rate, "turn_rate", Range{0.1, 6.0}, "rad/s", "of movers, on the spot and in curves");
-  visit(clearance, "clearance", Range{0.05, 3.0}, "m", "gap at which movers stop before the robot");
-  visit(patience, "patience", Range{4.0, 3600.0}, "s",
-        "after which a mover that the robot blocks reverses, to let it pass");
-  visit(back_speed, "back_speed", Range{0.05, 2.0}, "m/s", "at most, of a mover in reverse");
-  visit(pause_spread, "pause_spread", Range{0.0, 1.0}, "",
-        "share by which pauses at way-points vary either way, drawn from the seed");
-}
-
 std::size_t Lane::segment_after(double s) const {
   const auto segment = std::find_if(
       segments.begin(), segments.end(),

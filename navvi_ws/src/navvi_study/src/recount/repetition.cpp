@@ -53,12 +53,9 @@ RecordedSession session_in_bag(const std::filesystem::path& path) {
 }
 
 RepeatedWorld world_of(const RecordedSession& recorded) {
-  YAML::Node parameters = YAML::Load(recorded.parameters);
-  // Up to 0.1.0 every record named the parameters of that version's "warehouse", used or not.
-  for (const char* retired : {"box_fill", "forklift_speed", "pallet_robot_speed", "worker_speed"})
-    parameters.remove(retired);
   navvi_sim::setup::SimNodeConfig config;
-  navvi_config::read(config, parameters, "the recorded parameters");
+  navvi_config::read(config, YAML::Load(recorded.parameters), "the recorded parameters",
+                     navvi_config::Removed::ignored);
   navvi_sim::WorldDescription world = navvi_sim::setup::load_world(config).world;
   if (navvi_sim::world_hash(world) != recorded.world_hash)
     throw std::runtime_error("the world \"" + config.world +

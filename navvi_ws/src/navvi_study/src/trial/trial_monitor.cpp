@@ -55,24 +55,6 @@ std::string beside(const Proximity& proximity, double side) {
 
 }  // namespace
 
-void TrialMonitorConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(obstacle_range, "obstacle_range", Range{0.1, 50.0}, "m",
-        "an obstacle this near is a proximity event");
-  visit(shelf_range, "shelf_range", Range{0.1, 50.0}, "m",
-        "a shelf this near is a proximity event");
-  visit(leave_margin, "leave_margin", Range{0.0, 5.0}, "m",
-        "a near thing has left beyond its range plus this");
-  visit(leave_time, "leave_time", Range{0.0, 10.0}, "s", "and has been there this long");
-  visit(center_range, "center_range", Range{0.0, 10.0}, "m",
-        "up to this far aside, a thing is in the centre");
-  visit(progress_period, "progress_period", Range{0.1, 60.0}, "s",
-        "between rows that only say how far one got");
-  visit(arrival_range, "arrival_range", Range{0.5, 100.0}, "m",
-        "an arrival farther from the goal by odometry is not recorded as reached: goal_reached of "
-        "nav_node and 1 m");
-}
-
 bool TrialMonitor::counts(std::int64_t stamp) {
   latest_ = std::max(latest_, stamp);
   return start_ && stamp > start_->stamp && (!end_ || stamp <= *end_);
@@ -175,7 +157,7 @@ std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
   }
   driven_.odometry = odometry;
   if (odometry.stamp < driven_.next_progress) return {};
-  driven_.next_progress = odometry.stamp + ns(config_.progress_period);
+  driven_.next_progress = odometry.stamp + ns(config_.kProgressPeriod);
   record::Fields progress = tally_fields();
   if (const auto pad = devices_.find("pad"); pad != devices_.end())
     if (const auto share = pad->second.traits.find("assistance"); share != pad->second.traits.end())

@@ -64,15 +64,15 @@ struct Event {
 };
 
 struct TrialMonitorConfig {
-  double obstacle_range = 5.0;
-  double shelf_range = 1.0;
-  double leave_margin = 0.1;
-  double leave_time = 0.5;
-  double center_range = 1.0;
-  double progress_period = 1.0;
+  double obstacle_range = 5.0;  ///< m, an obstacle this near is a proximity event
+  double shelf_range = 1.0;     ///< m, a shelf this near is a proximity event
+  double leave_margin = 0.1;    ///< m, a near thing has left beyond its range plus this
+  double leave_time = 0.5;      ///< s, and has been there this long
+  double center_range = 1.0;    ///< m, up to this far aside, a thing is in the centre
+  static constexpr double kProgressPeriod = 1.0;  ///< s, between rows that only say how far one got
+  /// m, an arrival farther from the goal by odometry is not recorded as reached: goal_reached of
+  /// nav_node and 1 m
   double arrival_range = 1.0 + navvi_types::kArrivalMargin;
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 /// What a trial's first row says, so that the same messages give the same events again.

@@ -69,7 +69,6 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(locked, "locked", Any{}, "",
         "true: a goal that anybody else sets ends the trial as aborted");
   visit.group("study", study);
-  visit.group("monitor", monitor);
 }
 
 void check(const TrialNodeConfig& config) {

@@ -12,16 +12,16 @@ using navvi_types::Random;
 /// The hand on the stick, and what it believes to have done.
 struct DrivingConfig {
   bool faults = true;
-  double cruise = 0.85;
-  double slow = 0.6;
-  double turn_rate = 1.2;
-  double full_speed = 0.9;
-  double dead_zone = 0.12;
-  double expo = 0.3;
-  double gain_error = 0.05;
-  double noise = 0.03;
-  double veer = 0.3;
-  double veer_spread = 0.5;
+  double cruise = 0.85;                      ///< stick on a straight way: the speed that is liked
+  static constexpr double kSlow = 0.6;       ///< stick when something is near
+  static constexpr double kTurnRate = 1.2;   ///< rad/s, believed, at full stick
+  static constexpr double kFullSpeed = 0.9;  ///< m/s, believed, at full stick
+  static constexpr double kDeadZone = 0.12;  ///< believed, of the stick
+  static constexpr double kExpo = 0.3;       ///< believed, of the stick: 0 linear, 1 cubic
+  double gain_error = 0.05;  ///< standard deviation, over people, of how wrong these beliefs are
+  double noise = 0.03;       ///< standard deviation of a stick that is held
+  double veer = 0.3;         ///< deg/m, to one side, the same all the way
+  double veer_spread = 0.5;  ///< deg, standard deviation, over a metre, of what comes besides
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -19,11 +19,11 @@ struct FeelingConfig {
   bool faults = true;
   bool motors = true;
   std::string touch = "repulsive";
-  double threshold = 0.05;
-  double delay = 0.4;
-  double spread = 0.15;
-  double recognised = 0.98;
-  double strong = 0.6;
+  double threshold = 0.05;                ///< weaker motors are not felt
+  double delay = 0.4;                     ///< s, from a motor to the hand, the median
+  double spread = 0.15;                   ///< standard deviation of its logarithm
+  double recognised = 0.98;               ///< share of patterns
+  static constexpr double kStrong = 0.6;  ///< motors above this on both sides slow the hand
 
   void describe(navvi_config::Visitor& visit);
 };

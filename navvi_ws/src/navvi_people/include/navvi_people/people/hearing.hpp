@@ -19,15 +19,16 @@ struct HearingConfig {
   bool faults = true;
   bool words = true;
   bool sounds = true;
-  double word_reaction = 0.65;
-  double word_spread = 0.2;
-  double sound_reaction = 0.3;
-  double sound_spread = 0.15;
-  double missed_words = 0.01;
-  double missed_sounds = 0.02;
-  double misheard = 0.01;
-  double mirrored = 0.005;
-  double masked = 0.05;
+  double word_reaction = 0.65;  ///< s, from the end of a sentence to the hand, the median
+  double word_spread = 0.2;     ///< standard deviation of its logarithm, from sentence to sentence
+  double sound_reaction = 0.3;  ///< s, from the onset of a short sound to the hand, the median
+  double sound_spread = 0.15;   ///< standard deviation of its logarithm, from sound to sound
+  double missed_words = 0.01;   ///< share of sentences
+  double missed_sounds = 0.02;  ///< share of short sounds
+  double misheard = 0.01;       ///< share of hours taken for the next one
+  double mirrored = 0.005;      ///< share of sides taken for the other
+  double masked = 0.05;         ///< share of short sounds that speech or another sound covers
+  /// 1/s, letters that are followed; at twice as many no sentence is
   double fastest_speech = 30.0;
 
   void describe(navvi_config::Visitor& visit);

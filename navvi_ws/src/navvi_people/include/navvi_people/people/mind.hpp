@@ -13,8 +13,9 @@ using navvi_types::Random;
 /// Of two turns told in quick succession the second may be lost, the more so by the quick.
 struct MemoryConfig {
   bool faults = true;
+  /// share of second turns that are lost, told at once after a first, at a stick of 0.8
   double lost = 0.1;
-  double span = 3.0;
+  static constexpr double kSpan = 3.0;  ///< s, after which a first turn is no longer in the way
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -34,11 +35,11 @@ class Memory {
 /// Distraction, and patience.
 struct AttentionConfig {
   bool faults = true;
-  double distractions = 0.2;
-  double distracted = 1.5;
-  double patience = 12.0;
-  double idle_patience = 2.5;
-  double gives_up = 240.0;
+  double distractions = 0.2;   ///< 1/min, times that nothing is taken in
+  double distracted = 1.5;     ///< s, each
+  double patience = 12.0;      ///< s, of silence while driving before asking
+  double idle_patience = 2.5;  ///< s, of silence while waiting before asking
+  double gives_up = 240.0;     ///< s, of standing, and then gives up
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -64,8 +65,9 @@ class Attention {
 struct LearningConfig {
   bool on = true;
   int routes = 1;
-  double rate = 0.15;
-  double bias_rate = 0.2;
+  double rate = 0.15;  ///< exponent: reactions and errors are routes to the power of minus this
+  /// of what words leave a turn short by, taken into the next
+  static constexpr double kBiasRate = 0.2;
 
   void describe(navvi_config::Visitor& visit);
 };

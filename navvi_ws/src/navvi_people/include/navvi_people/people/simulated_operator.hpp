@@ -28,7 +28,8 @@ struct SimulatedOperatorConfig {
   MemoryConfig memory;
   AttentionConfig attention;
   LearningConfig learning;
-  double trust = 10.0;
+  /// m, driven on without a word after a turn that a sound has ended; assumed
+  static constexpr double kTrust = 10.0;
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -36,15 +36,16 @@ struct ImperfectionsConfig {
 struct RobotConfig {
   double radius = 0.35;        ///< m
   double height = 0.5;         ///< m, top above the floor
-  double clearance = 0.05;     ///< m, underside above the floor; lower things are driven over
-  double mass = 50.0;          ///< kg
+  /// m, underside of the hull above the floor; what is lower is driven over
+  double clearance = 0.05;
+  double mass = 50.0;          ///< kg, mass of the robot
   double max_speed = 0.9;      ///< m/s, forward and back
-  double acceleration = 1.0;   ///< m/s^2
-  double deceleration = 2.0;   ///< m/s^2
-  double max_turn_rate = 1.5;  ///< rad/s
-  double angular_acceleration = 4.0;  ///< rad/s^2, to faster and to slower turning
-  double brake = 30.0;                ///< m/s^2, when the last stage stops the wheels
-  double angular_brake = 60.0;        ///< rad/s^2, likewise
+  double acceleration = 1.0;   ///< m/s^2, towards a larger speed
+  double deceleration = 2.0;   ///< m/s^2, towards a smaller speed
+  double max_turn_rate = 1.5;  ///< rad/s, largest rate of turn
+  double angular_acceleration = 4.0;  ///< rad/s^2, of turning, both ways
+  double brake = 30.0;                ///< m/s^2, deceleration when commands fail to come
+  double angular_brake = 60.0;        ///< rad/s^2, angular deceleration when commands fail to come
   ImperfectionsConfig imperfections;
 
   void describe(navvi_config::Visitor& visit);

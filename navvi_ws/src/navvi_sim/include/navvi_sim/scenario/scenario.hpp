@@ -21,8 +21,8 @@ struct ScenarioConfig {
   double mover_distance = 2.0;  ///< m, at least, from the start to a mover at time zero
   double min_route = 0.0;       ///< m, along the floor; 0: 10 where the world permits
   double max_route = 0.0;       ///< m; 0: as long as may be
-  int min_turns = 0;            ///< of the route, as turns() counts them
-  int max_turns = kAnyTurns;    ///< kAnyTurns: as many as may be
+  int min_turns = 0;            ///< least number of its turns, of 30 degrees or more
+  int max_turns = kAnyTurns;    ///< most of its turns; 100: any
 
   traffic::MoversConfig movers;  ///< by which they lay their tracks
 

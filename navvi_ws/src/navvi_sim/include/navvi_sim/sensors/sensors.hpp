@@ -15,11 +15,11 @@ namespace navvi_sim::sensors {
 /// A lidar that turns in a plane, about x of base_link.
 struct LidarConfig {
   double rate = 10.0;       ///< Hz
-  double field = 360.0;     ///< degrees, half of it to each side of its x axis
-  int rays = 360;           ///< spread over the field
-  double x = 0.0;           ///< m, in base_link
+  double field = 360.0;     ///< degrees, that a scan covers, its middle ahead
+  int rays = 360;           ///< of a scan
+  double x = 0.0;           ///< m, place in base_link
   double height = 0.12;     ///< m above the floor; the base of a rack is 0.15 m high
-  double nearest = 0.1;     ///< m
+  double nearest = 0.1;     ///< m, least range
   double farthest = 12.0;   ///< m
   double noise = 0.01;      ///< m, standard deviation
   double dropouts = 0.005;  ///< share of rays without a measurement
@@ -29,19 +29,18 @@ struct LidarConfig {
 
 /// A camera that measures depth, a ray a pixel.
 struct CameraConfig {
-  double rate = 5.0;       ///< Hz
-  double field = 87.0;     ///< degrees, from left to right
-  int columns = 64;        ///< pixels
-  int rows = 40;           ///< pixels, as wide as they are high
-  double x = 0.25;         ///< m, in base_link
-  double height = 0.45;    ///< m above the floor
-  double pitch = 20.0;     ///< degrees, downwards
-  double nearest = 0.3;    ///< m
-  double farthest = 4.0;   ///< m
-  double noise = 0.002;    ///< m at 1 m, standard deviation; it grows with the square of the range
+  double rate = 5.0;      ///< Hz, pictures a second
+  double field = 87.0;    ///< degrees, from left to right
+  int columns = 64;       ///< pixels from left to right
+  int rows = 40;          ///< pixels from top to bottom
+  double x = 0.25;        ///< m, place in base_link
+  double height = 0.45;   ///< m, above the floor
+  double pitch = 20.0;    ///< degrees, downwards
+  double nearest = 0.3;   ///< m, least range
+  double farthest = 4.0;  ///< m, greatest range
+  /// m, standard deviation of a range at 1 m; it grows with the square of the range
+  double noise = 0.002;
   double dropouts = 0.01;  ///< share of pixels without a measurement
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 /// What one sensor measured at one instant.

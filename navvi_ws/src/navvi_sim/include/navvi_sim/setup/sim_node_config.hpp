@@ -23,7 +23,7 @@ struct SimNodeConfig {
   std::string start;              ///< "x,y,yaw" in m and rad; empty: drawn from the seed
   std::string goal;               ///< "x,y" in m; empty: drawn from the seed
   double rate = 1.0;              ///< simulated seconds per second
-  double detection_radius = 5.0;  ///< m
+  double detection_radius = 5.0;  ///< m, gap up to which things are reported as near
   live::WorldConfig life;
   std::string workers = "both";  ///< of layouts: standing, walking, or both as laid out
   scenario::ScenarioConfig scenario;
