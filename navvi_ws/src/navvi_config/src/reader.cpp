@@ -13,7 +13,7 @@
 #include <tuple>
 #include <utility>
 
-#include "navvi_config/json.hpp"
+#include "navvi_files/json.hpp"
 #include "removed_keys.hpp"
 
 namespace navvi_config {
@@ -372,14 +372,15 @@ void read_fields(const Describe& describe, const YAML::Node& node, const std::st
 }
 
 std::string json(const std::vector<Row>& rows) {
+  using navvi_files::json_text;
   std::vector<std::string> objects;
   for (const Row& row : rows) {
-    objects.push_back(json_object({{"parameter", json_text(row.key)},
+    objects.push_back(navvi_files::json_object({{"parameter", json_text(row.key)},
                                    {"default", json_text(row.default_value)},
                                    {"allowed", json_text(row.allowed)},
                                    {"meaning", json_text(row.help)}}));
   }
-  return json_list(objects);
+  return navvi_files::json_list(objects);
 }
 
 std::vector<Row> table_of(const Describe& describe) {

@@ -176,7 +176,7 @@ struct Task {
 };
 
 record::Fields run_trial(const Options& options, ClosedLoopConfig config,
-                         const std::string& phrases, const navvi_config::Cache* cache,
+                         const std::string& phrases, const navvi_files::Cache* cache,
                          const Task& task) {
   config.sim.world = task.world;
   config.sim.seed = task.seed;

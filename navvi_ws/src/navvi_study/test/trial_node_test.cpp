@@ -25,7 +25,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <string>
 #include <vector>
 
@@ -249,7 +249,7 @@ class TrialNodeProcess : public testing::Test {
   }
   [[nodiscard]] static std::map<std::string, std::string> summary_in(const fs::path& folder) {
     const auto summary =
-        record::parse_summary(navvi_config::read_file(folder / "summary.csv").value_or(""));
+        record::parse_summary(navvi_files::read_file(folder / "summary.csv").value_or(""));
     if (!summary) return {};
     return {summary->begin(), summary->end()};
   }
@@ -270,7 +270,7 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
   EXPECT_EQ(node.exit_code(), 0);
   const fs::path folder = only_folder();
 
-  const auto journal = record::read_journal(navvi_config::read_file(folder / "journal.csv").value_or(""));
+  const auto journal = record::read_journal(navvi_files::read_file(folder / "journal.csv").value_or(""));
   EXPECT_EQ(journal.damage, "");
   // What was published is what is on the disk; the row on the closed bag may come too late to hear.
   ASSERT_GE(world.events.size() + 1, journal.rows.size());

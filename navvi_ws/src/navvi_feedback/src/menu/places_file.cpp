@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <navvi_types/limits.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -124,7 +124,7 @@ bool holds(const std::string& text, std::size_t count, const Spot& spot) {
 }
 
 std::string content_of(const std::filesystem::path& path) {
-  std::string text = navvi_config::read_file(path).value_or("");
+  std::string text = navvi_files::read_file(path).value_or("");
   if (!text.empty() && text.back() != '\n') text += '\n';
   return text;
 }
@@ -144,7 +144,7 @@ void add_places(const std::filesystem::path& path, const std::vector<NamedPlace>
   if (!holds(text, all.size(), spot)) text = text_of(all);
   if (!holds(text, all.size(), spot))
     throw std::runtime_error(path.string() + ": the new place makes the file unusable.");
-  if (const auto problem = navvi_config::write_atomically(path, text))
+  if (const auto problem = navvi_files::write_atomically(path, text))
     throw std::runtime_error("The place is not saved: " + *problem + ".");
 }
 

@@ -2,7 +2,7 @@
 
 #include <ros/ros.h>
 
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <navvi_config/ros_parameters.hpp>
 
 namespace navvi_feedback::node {
@@ -66,7 +66,7 @@ void Settings::keep(const lockstep::Told& told) {
   // The last words of a session come without a lesson, and leave its record as it is.
   if (!config_.record.empty() && !told.record.empty() && recorded_ != told.record) {
     recorded_ = told.record;
-    if (const auto problem = navvi_config::write_atomically(config_.record, told.record))
+    if (const auto problem = navvi_files::write_atomically(config_.record, told.record))
       ROS_ERROR("The results of the lesson are not kept: %s.", problem->c_str());
   }
   if (found_ == told.settings) return;

@@ -1,7 +1,7 @@
 #include "person/person_file.hpp"
 
 #include <cstdlib>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <regex>
 #include <sstream>
 
@@ -53,7 +53,7 @@ void PersonFile::save(const std::vector<std::string>& words) const {
   if (failed)
     throw std::runtime_error(lost + "cannot create " + path_.parent_path().string() + ": " +
                              failed.message() + ".");
-  if (const auto problem = navvi_config::write_atomically(path_, text(values)))
+  if (const auto problem = navvi_files::write_atomically(path_, text(values)))
     throw std::runtime_error(lost + *problem + ".");
 }
 

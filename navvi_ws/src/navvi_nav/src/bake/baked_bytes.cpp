@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <navvi_config/bytes.hpp>
+#include <navvi_files/bytes.hpp>
 #include <utility>
 #include <vector>
 
 namespace navvi_nav::bake {
 namespace {
 
-using navvi_config::ByteReader;
-using navvi_config::ByteWriter;
+using navvi_files::ByteReader;
+using navvi_files::ByteWriter;
 
 /// The ground as runs of equal cells; distances are measured again, which costs less than to read
 /// them.

@@ -22,7 +22,7 @@ NavigationConfig::~NavigationConfig() = default;
 void NavigationConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
 
 struct Navigation::Parts {
-  Parts(const guide::NavigatorConfig& config, const navvi_config::Cache* cache)
+  Parts(const guide::NavigatorConfig& config, const navvi_files::Cache* cache)
       : navigator(config), planner(config.planner, cache) {}
 
   guide::Navigator navigator;
@@ -33,7 +33,7 @@ struct Navigation::Parts {
   std::string map_error = {};
 };
 
-Navigation::Navigation(const NavigationConfig& config, const navvi_config::Cache* cache)
+Navigation::Navigation(const NavigationConfig& config, const navvi_files::Cache* cache)
     : parts_(std::make_unique<Parts>(*config.values_, cache)) {}
 Navigation::~Navigation() = default;
 

@@ -1,6 +1,6 @@
 #include "plan/kept_bake.hpp"
 
-#include <navvi_config/bytes.hpp>
+#include <navvi_files/bytes.hpp>
 #include <navvi_config/writer.hpp>
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace navvi_nav::plan {
 namespace {
 
 std::string key_of(const NavMesh& mesh, const map::MapBytes& map, std::optional<double> stands_at) {
-  navvi_config::ByteWriter key;
+  navvi_files::ByteWriter key;
   key.put(std::string_view("mesh"));
   key.put(std::string_view(navvi_config::write(mesh.config())));
   key.put(mesh.clearance());
@@ -20,7 +20,7 @@ std::string key_of(const NavMesh& mesh, const map::MapBytes& map, std::optional<
   key.put(map.binary);
   key.put(map.resolution);
   const std::string_view data(reinterpret_cast<const char*>(map.data), map.size);
-  key.put(navvi_config::hash_of(data));
+  key.put(navvi_files::hash_of(data));
   key.put(std::uint64_t{map.size});
   return key.bytes();
 }
@@ -28,7 +28,7 @@ std::string key_of(const NavMesh& mesh, const map::MapBytes& map, std::optional<
 }  // namespace
 
 bake::BakedMap kept_bake(const NavMesh& mesh, const map::MapBytes& map,
-                         std::optional<double> stands_at, const navvi_config::Cache& cache) {
+                         std::optional<double> stands_at, const navvi_files::Cache& cache) {
   const std::string key = key_of(mesh, map, stands_at);
   if (const auto bytes = cache.find(key))
     if (auto kept = bake::from_bytes(*bytes, mesh.config().threads)) return *std::move(kept);

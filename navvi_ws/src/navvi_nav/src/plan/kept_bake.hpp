@@ -1,6 +1,6 @@
 #pragma once
 
-#include <navvi_config/cache.hpp>
+#include <navvi_files/cache.hpp>
 #include <optional>
 
 #include "plan/nav_mesh.hpp"
@@ -10,6 +10,6 @@ namespace navvi_nav::plan {
 /// NavMesh::bake of a first map, or what it once was of the same map with the same config.
 [[nodiscard]] bake::BakedMap kept_bake(const NavMesh& mesh, const map::MapBytes& map,
                                        std::optional<double> stands_at,
-                                       const navvi_config::Cache& cache);
+                                       const navvi_files::Cache& cache);
 
 }  // namespace navvi_nav::plan

@@ -80,7 +80,7 @@ class KeptBake : public testing::Test {
 };
 
 TEST_F(KeptBake, gives_the_same_mesh_and_floor_and_the_same_after_the_next_map) {
-  const navvi_config::Cache cache({folder_, 16, "build"});
+  const navvi_files::Cache cache({folder_, 16, "build"});
   for (unsigned seed = 0; seed < 6; ++seed) {
     RandomWorld world(seed);
     const Sent sent(world.map);
@@ -107,7 +107,7 @@ TEST_F(KeptBake, gives_the_same_mesh_and_floor_and_the_same_after_the_next_map) 
 }
 
 TEST_F(KeptBake, is_another_one_for_another_map_config_clearance_or_height) {
-  const navvi_config::Cache cache({folder_, 16, "build"});
+  const navvi_files::Cache cache({folder_, 16, "build"});
   SmallWorld world, other;
   world.room(6, 4);
   other.room(6, 4.05);
@@ -126,7 +126,7 @@ TEST_F(KeptBake, is_another_one_for_another_map_config_clearance_or_height) {
 }
 
 TEST_F(KeptBake, keeps_no_map_that_is_rejected) {
-  const navvi_config::Cache cache({folder_, 16, "build"});
+  const navvi_files::Cache cache({folder_, 16, "build"});
   SmallWorld world;
   world.box(0, 0, 0, 0.2, 0.2, 0.2);
   const Sent sent(world);

@@ -30,7 +30,7 @@ void PlannerConfig::describe(navvi_config::Visitor& visit) {
   visit(alpha, "alpha", Range{0.0, 1.0}, "", "weight of centroid_astar's heuristic (R-NAV-6)");
 }
 
-Planner::Planner(const PlannerConfig& config, const navvi_config::Cache* cache)
+Planner::Planner(const PlannerConfig& config, const navvi_files::Cache* cache)
     : config_(config),
       cache_(cache),
       nav_mesh_(config.mesh, config.smoothing.cost.preferred_clearance),

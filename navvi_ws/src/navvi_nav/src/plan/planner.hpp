@@ -1,6 +1,6 @@
 #pragma once
 
-#include <navvi_config/cache.hpp>
+#include <navvi_files/cache.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,7 +28,7 @@ struct PlannerConfig {
 class Planner {
  public:
   /// \param cache  of first maps; nullptr: none is kept
-  explicit Planner(const PlannerConfig& config, const navvi_config::Cache* cache = nullptr);
+  explicit Planner(const PlannerConfig& config, const navvi_files::Cache* cache = nullptr);
 
   /// Takes the map, carves the obstacles, searches a path and smooths it. A path that only
   /// obstacles close is returned as closed, or as a retreat if the request names a swept area and
@@ -76,7 +76,7 @@ class Planner {
   [[nodiscard]] RouteFinder routes() { return {nav_mesh_, search_, config_.kStartSnap}; }
 
   PlannerConfig config_;
-  const navvi_config::Cache* cache_;
+  const navvi_files::Cache* cache_;
   NavMesh nav_mesh_;
   std::optional<std::vector<Cylinder>> uncarved_;  ///< the latest, until something needs the mesh
   search::Search search_;

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <navvi_config/json.hpp>
+#include <navvi_files/json.hpp>
 #include <navvi_config/reader.hpp>
 #include <optional>
 #include <sstream>
@@ -170,7 +170,7 @@ MeshFigures figures_of(const mesh::Mesh& mesh) {
 }
 
 /// What a program reads; print_mesh() and print_plan() print the same for people.
-using navvi_config::JsonFields;
+using navvi_files::JsonFields;
 
 JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
                       const plan::MeshUpdate& update) {
@@ -189,8 +189,8 @@ JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
       is.largest);
   std::printf("memory      %zu bytes, %.1f a square metre\n", is.bytes,
               static_cast<double>(is.bytes) / is.area);
-  using navvi_config::json_number;
-  return {{"map", navvi_config::json_text(source)},
+  using navvi_files::json_number;
+  return {{"map", navvi_files::json_text(source)},
           {"floor length m", json_number(floor.columns() * floor.cell_size(), 2)},
           {"floor width m", json_number(floor.rows() * floor.cell_size(), 2)},
           {"cell m", json_number(floor.cell_size(), 3)},
@@ -208,9 +208,9 @@ JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
 std::string json_of(const Path& path) {
   std::vector<std::string> points;
   for (const Point point : path)
-    points.push_back(navvi_config::json_list(
-        {navvi_config::json_number(point.x, 2), navvi_config::json_number(point.y, 2)}));
-  return navvi_config::json_list(points);
+    points.push_back(navvi_files::json_list(
+        {navvi_files::json_number(point.x, 2), navvi_files::json_number(point.y, 2)}));
+  return navvi_files::json_list(points);
 }
 
 void print_plan(const plan::Plan& plan, const Path& turns, double milliseconds,
@@ -222,9 +222,9 @@ void print_plan(const plan::Plan& plan, const Path& turns, double milliseconds,
   std::printf("\nturns       %zu:", turns.size());
   for (const Point point : turns) std::printf(" %.2f,%.2f", point.x, point.y);
   std::puts("");
-  fields.emplace_back("query ms", navvi_config::json_number(milliseconds, 3));
-  fields.emplace_back("shortest way m", navvi_config::json_number(plan.shortest));
-  fields.emplace_back("guide path m", navvi_config::json_number(length_of(plan.path), 3));
+  fields.emplace_back("query ms", navvi_files::json_number(milliseconds, 3));
+  fields.emplace_back("shortest way m", navvi_files::json_number(plan.shortest));
+  fields.emplace_back("guide path m", navvi_files::json_number(length_of(plan.path), 3));
   fields.emplace_back("path", json_of(plan.path));
   fields.emplace_back("turns", json_of(turns));
 }
@@ -313,12 +313,12 @@ int run(const Options& options) {
   std::string refusal;
   if (options.from && options.stage >= Stage::search)
     refusal = plan_into(picture, planner, options, config.path.guidance.one_turn, fields);
-  if (!refusal.empty()) fields.emplace_back("refusal", navvi_config::json_text(refusal));
+  if (!refusal.empty()) fields.emplace_back("refusal", navvi_files::json_text(refusal));
   if (!options.picture.empty()) {
     file << svg_of(picture);
     if (!file.flush()) throw UsageError(options.picture + ": the picture cannot be written");
   }
-  if (!options.json.empty()) navvi_config::write_json(options.json, fields);
+  if (!options.json.empty()) navvi_files::write_json(options.json, fields);
   if (refusal.empty()) return 0;
   tell(refusal);
   return 1;

@@ -35,7 +35,7 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
         "sighted: the person's hand and liking of speed, but led by eyes: the reference");
 }
 
-ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_config::Cache* cache)
+ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_files::Cache* cache)
     : world(navvi_sim::setup::load_world(config.sim).world) {
   const navvi_sim::setup::Course course = navvi_sim::setup::course_of(config.sim, world, cache);
   scenario = course.ends;
@@ -46,7 +46,7 @@ ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_config:
 }
 
 ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
-                       const navvi_config::Cache* cache)
+                       const navvi_files::Cache* cache)
     : config_(config),
       setting_(config, cache),
       session_(setting_.world, config.sim.life, setting_.scenario.start,

@@ -1,6 +1,6 @@
 #include "navvi_sim/setup/course.hpp"
 
-#include <navvi_config/bytes.hpp>
+#include <navvi_files/bytes.hpp>
 #include <navvi_config/writer.hpp>
 
 #include "navvi_sim/description/world_hash.hpp"
@@ -8,8 +8,8 @@
 namespace navvi_sim::setup {
 namespace {
 
-using navvi_config::ByteReader;
-using navvi_config::ByteWriter;
+using navvi_files::ByteReader;
+using navvi_files::ByteWriter;
 
 /// A world's places are in no hash: neither map nor ends depend on them.
 std::string key_of(const SimNodeConfig& config, const WorldDescription& world) {
@@ -57,7 +57,7 @@ std::optional<Course> from_bytes(std::string_view bytes) {
 }  // namespace
 
 Course course_of(const SimNodeConfig& config, const WorldDescription& world,
-                 const navvi_config::Cache* cache) {
+                 const navvi_files::Cache* cache) {
   const std::string key = cache != nullptr ? key_of(config, world) : "";
   if (const auto bytes = cache != nullptr ? cache->find(key) : std::nullopt)
     if (auto kept = from_bytes(*bytes)) return *std::move(kept);

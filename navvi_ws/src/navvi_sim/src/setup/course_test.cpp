@@ -30,7 +30,7 @@ class CourseOf : public testing::Test {
   }
   ~CourseOf() override { fs::remove_all(folder_); }
 
-  [[nodiscard]] Course course(const navvi_config::Cache* cache) const {
+  [[nodiscard]] Course course(const navvi_files::Cache* cache) const {
     return course_of(config_, load_world(config_).world, cache);
   }
   [[nodiscard]] std::size_t kept() const {
@@ -45,7 +45,7 @@ class CourseOf : public testing::Test {
 };
 
 TEST_F(CourseOf, a_world_is_the_same_fresh_and_kept) {
-  const navvi_config::Cache cache({folder_, 16, "build"});
+  const navvi_files::Cache cache({folder_, 16, "build"});
   const Course fresh = course(nullptr);
   expect_same(course(&cache), fresh);
   EXPECT_EQ(kept(), 1u);
@@ -54,7 +54,7 @@ TEST_F(CourseOf, a_world_is_the_same_fresh_and_kept) {
 }
 
 TEST_F(CourseOf, another_seed_goal_or_map_is_another_one) {
-  const navvi_config::Cache cache({folder_, 16, "build"});
+  const navvi_files::Cache cache({folder_, 16, "build"});
   const Course first = course(&cache);
   config_.seed = 2;
   const Course other_seed = course(&cache);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <navvi_config/reader.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -19,7 +19,7 @@ namespace {
 using namespace navvi_sim;
 
 std::vector<live::AppliedCommand> read_commands(const std::string& path) {
-  const auto content = navvi_config::read_file(path);
+  const auto content = navvi_files::read_file(path);
   if (!content) throw std::runtime_error("\"" + path + "\" cannot be read");
   std::istringstream file(*content);
   std::vector<live::AppliedCommand> commands;

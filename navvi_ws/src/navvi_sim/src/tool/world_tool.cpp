@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <navvi_config/json.hpp>
+#include <navvi_files/json.hpp>
 #include <navvi_config/reader.hpp>
 #include <sstream>
 
@@ -135,10 +135,10 @@ std::map<std::string, int> counts_of(const WorldDescription& world) {
 }
 
 /// As print(), for a program.
-navvi_config::JsonFields fields_of(const Request& request, const scenario::StartAndGoal& scenario) {
-  using navvi_config::json_text;
+navvi_files::JsonFields fields_of(const Request& request, const scenario::StartAndGoal& scenario) {
+  using navvi_files::json_text;
   const WorldDescription& world = request.loaded.world;
-  navvi_config::JsonFields fields;
+  navvi_files::JsonFields fields;
   for (const auto& [what, number] : counts_of(world))
     fields.emplace_back(what, std::to_string(number));
   fields.emplace_back("world", json_text(world.name));
@@ -146,10 +146,10 @@ navvi_config::JsonFields fields_of(const Request& request, const scenario::Start
   fields.emplace_back("world hash", json_text(world_hash(world)));
   fields.emplace_back("floor z m", rounded(world.floor_height, 3));
   fields.emplace_back("start x m, y m, yaw rad",
-                      navvi_config::json_list({rounded(scenario.start.position.x(), 3),
+                      navvi_files::json_list({rounded(scenario.start.position.x(), 3),
                                                rounded(scenario.start.position.y(), 3),
                                                rounded(scenario.start.yaw, 3)}));
-  fields.emplace_back("goal x m, y m", navvi_config::json_list({rounded(scenario.goal.x(), 3),
+  fields.emplace_back("goal x m, y m", navvi_files::json_list({rounded(scenario.goal.x(), 3),
                                                                 rounded(scenario.goal.y(), 3)}));
   return fields;
 }
@@ -197,7 +197,7 @@ void check(const Words& words) {
   print(request, scenario);
   if (out) write_octomap(*out, map);
   if (const auto file = words.option("--json"))
-    navvi_config::write_json(*file, fields_of(request, scenario));
+    navvi_files::write_json(*file, fields_of(request, scenario));
 }
 
 /// Points in map, m. \param text  as in "1.5,2 3,-4"
@@ -232,14 +232,14 @@ void show(const Words& words) {
 }
 
 void list(const Words& words) {
-  navvi_config::JsonFields fields;
+  navvi_files::JsonFields fields;
   for (const generate::Preset& known : generate::presets()) {
     std::ostringstream meaning;
     meaning << known.help << ", " << known.config.length << " x " << known.config.width << " m";
     std::cout << known.name << ": " << meaning.str() << '\n';
-    fields.emplace_back(known.name, navvi_config::json_text(meaning.str()));
+    fields.emplace_back(known.name, navvi_files::json_text(meaning.str()));
   }
-  if (const auto file = words.option("--json")) navvi_config::write_json(*file, fields);
+  if (const auto file = words.option("--json")) navvi_files::write_json(*file, fields);
 }
 
 struct Command {

@@ -20,12 +20,12 @@ fs::path folder_of(const char* variable) {
 
 }  // namespace
 
-std::optional<navvi_config::Cache> world_cache(std::uintmax_t megabytes) {
+std::optional<navvi_files::Cache> world_cache(std::uintmax_t megabytes) {
   fs::path folder = folder_of("XDG_CACHE_HOME");
   if (folder.empty() && !folder_of("HOME").empty()) folder = folder_of("HOME") / ".cache";
   const std::optional<std::string> build = trial::build_ids();
   if (folder.empty() || !build) return std::nullopt;
-  return navvi_config::Cache({folder / "navvi" / "worlds", megabytes, *build + trial::processor()});
+  return navvi_files::Cache({folder / "navvi" / "worlds", megabytes, *build + trial::processor()});
 }
 
 }  // namespace navvi_study::batch

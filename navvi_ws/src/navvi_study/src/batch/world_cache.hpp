@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <navvi_config/cache.hpp>
+#include <navvi_files/cache.hpp>
 #include <optional>
 
 namespace navvi_study::batch {
@@ -9,6 +9,6 @@ namespace navvi_study::batch {
 /// What trials keep of their worlds for other trials of this build on this kind of processor, in
 /// XDG_CACHE_HOME/navvi/worlds or ~/.cache/navvi/worlds. \param megabytes  MB, at most
 /// \return nullopt where nothing can be kept: there is no such folder, or no build ID
-[[nodiscard]] std::optional<navvi_config::Cache> world_cache(std::uintmax_t megabytes);
+[[nodiscard]] std::optional<navvi_files::Cache> world_cache(std::uintmax_t megabytes);
 
 }  // namespace navvi_study::batch

@@ -19,7 +19,7 @@ namespace navvi_study::batch {
 namespace {
 
 namespace fs = std::filesystem;
-using navvi_config::Cache;
+using navvi_files::Cache;
 using navvi_people::loop::ClosedLoop;
 using navvi_people::loop::ClosedLoopConfig;
 

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 
 namespace navvi_study::record {
 namespace {
@@ -34,7 +34,7 @@ int answer_into(std::FILE* file, const std::function<std::string()>& work) {
     code = 2;
   }
   std::string_view rest = answer;
-  return navvi_config::write_all(::fileno(file), rest, navvi_config::SystemCalls::real()) == 0
+  return navvi_files::write_all(::fileno(file), rest, navvi_files::SystemCalls::real()) == 0
              ? code
              : 2;
 }

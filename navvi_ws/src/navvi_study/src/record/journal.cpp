@@ -35,7 +35,7 @@ fs::path torn_in(const fs::path& folder, int i) {
 /// A place for torn bytes that overwrites none but the same bytes.
 fs::path place_for(const fs::path& folder, const std::string& bytes) {
   for (int i = 1;; ++i) {
-    const auto there = navvi_config::read_file(torn_in(folder, i));
+    const auto there = navvi_files::read_file(torn_in(folder, i));
     if (!fs::exists(torn_in(folder, i)) || (there && *there == bytes)) return torn_in(folder, i);
   }
 }
@@ -44,7 +44,7 @@ fs::path place_for(const fs::path& folder, const std::string& bytes) {
 /// unfinished row.
 bool rows_were_lost(const fs::path& folder) {
   for (int i = 1;; ++i) {
-    const auto bytes = navvi_config::read_file(torn_in(folder, i));
+    const auto bytes = navvi_files::read_file(torn_in(folder, i));
     if (!bytes) return false;
     if (bytes->find('\n') != std::string::npos) return true;
   }
@@ -65,7 +65,7 @@ struct OpenFile {
 }  // namespace
 
 Journal::Journal(const fs::path& folder, const std::string& trial, std::uint64_t min_free,
-                 navvi_config::SystemCalls calls)
+                 navvi_files::SystemCalls calls)
     : folder_(folder), trial_(trial), calls_(std::move(calls)) {
   std::error_code error;
   const auto space = fs::space(folder, error);
@@ -77,17 +77,17 @@ Journal::Journal(const fs::path& folder, const std::string& trial, std::uint64_t
   file_ = ::open(journal_in(folder).c_str(),
                  O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (file_ < 0)
-    throw std::runtime_error("no trial: " + navvi_config::failure("create a journal", errno));
+    throw std::runtime_error("no trial: " + navvi_files::failure("create a journal", errno));
   int failed = ::flock(file_, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
   if (failed == 0) failed = make_reserve(folder);
   std::string header = std::string(kJournalHeader) + "\n";
   std::string_view rest = header;
-  if (failed == 0) failed = navvi_config::write_all(file_, rest, calls_);
+  if (failed == 0) failed = navvi_files::write_all(file_, rest, calls_);
   if (failed == 0 && calls_.fdatasync(file_) != 0) failed = errno;
-  navvi_config::Problem problem;
-  if (failed != 0) problem = navvi_config::failure("write the journal", failed);
-  if (!problem) problem = navvi_config::sync_folder(folder, calls_);
-  if (!problem) problem = navvi_config::sync_folder(folder / "..", calls_);
+  navvi_files::Problem problem;
+  if (failed != 0) problem = navvi_files::failure("write the journal", failed);
+  if (!problem) problem = navvi_files::sync_folder(folder, calls_);
+  if (!problem) problem = navvi_files::sync_folder(folder / "..", calls_);
   if (problem) {
     ::close(file_);
     throw std::runtime_error("no trial: " + *problem);
@@ -105,11 +105,11 @@ bool Journal::full(std::uint64_t least) const {
 }
 
 int Journal::write(std::string_view line) {
-  int error = navvi_config::write_all(file_, line, calls_);
+  int error = navvi_files::write_all(file_, line, calls_);
   if (error == ENOSPC && !reserve_used_) {
     reserve_used_ = true;
     ::unlink(reserve_in(folder_).c_str());
-    error = navvi_config::write_all(file_, line, calls_);
+    error = navvi_files::write_all(file_, line, calls_);
   }
   return error;
 }
@@ -125,7 +125,7 @@ std::optional<Row> Journal::append(const std::string& type, const Fields& fields
     error = errno;
   }
   if (error != 0) {
-    problem_ = navvi_config::failure("write the journal", error);
+    problem_ = navvi_files::failure("write the journal", error);
     return std::nullopt;
   }
   rows_.push_back(row);
@@ -164,15 +164,15 @@ JournalContents read_journal(std::string_view bytes) {
 namespace {
 
 /// Appends to what a crash left; `contents` has been read from `file`.
-navvi_config::Problem mend(const fs::path& folder, int file, const std::string& bytes,
+navvi_files::Problem mend(const fs::path& folder, int file, const std::string& bytes,
                            JournalContents& contents, Recovery& recovery) {
-  const navvi_config::SystemCalls calls = navvi_config::SystemCalls::real();
+  const navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   if (!contents.damage.empty()) {
     const std::string tail = bytes.substr(contents.good_bytes);
     const fs::path aside = place_for(folder, tail);
-    if (const auto problem = navvi_config::write_atomically(aside, tail)) return problem;
+    if (const auto problem = navvi_files::write_atomically(aside, tail)) return problem;
     if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || ::fsync(file) != 0) {
-      return navvi_config::failure("shorten the journal", errno);
+      return navvi_files::failure("shorten the journal", errno);
     }
     recovery.changed = true;
     recovery.report +=
@@ -201,9 +201,9 @@ navvi_config::Problem mend(const fs::path& folder, int file, const std::string& 
   if (lines.empty()) return std::nullopt;
   recovery.changed = true;
   std::string_view rest = lines;
-  int error = navvi_config::write_all(file, rest, calls);
+  int error = navvi_files::write_all(file, rest, calls);
   if (error == 0 && ::fsync(file) != 0) error = errno;
-  if (error != 0) return navvi_config::failure("close the journal", error);
+  if (error != 0) return navvi_files::failure("close the journal", error);
   return std::nullopt;
 }
 
@@ -214,14 +214,14 @@ Recovery recover(const fs::path& folder) {
   const OpenFile file(
       ::open(journal_in(folder).c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW));
   if (file.descriptor < 0) {
-    recovery.problem = navvi_config::failure("open the journal in " + folder.string(), errno);
+    recovery.problem = navvi_files::failure("open the journal in " + folder.string(), errno);
     return recovery;
   }
   if (::flock(file.descriptor, LOCK_EX | LOCK_NB) != 0) {
     recovery.in_use = true;
     return recovery;
   }
-  const auto bytes = navvi_config::read_file(journal_in(folder));
+  const auto bytes = navvi_files::read_file(journal_in(folder));
   if (!bytes) {
     recovery.problem = "cannot read the journal in " + folder.string();
     return recovery;

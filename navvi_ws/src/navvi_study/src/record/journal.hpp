@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <memory>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <string>
 #include <vector>
 
@@ -29,7 +29,7 @@ class Journal {
   /// free
   Journal(const std::filesystem::path& folder, const std::string& trial,
           std::uint64_t min_free = kMinFree,
-          navvi_config::SystemCalls calls = navvi_config::SystemCalls::real());
+          navvi_files::SystemCalls calls = navvi_files::SystemCalls::real());
   /// Gives the reserve back.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -54,7 +54,7 @@ class Journal {
 
   std::filesystem::path folder_;
   std::string trial_;
-  navvi_config::SystemCalls calls_;
+  navvi_files::SystemCalls calls_;
   int file_ = -1;
   bool reserve_used_ = false;
   std::string problem_;

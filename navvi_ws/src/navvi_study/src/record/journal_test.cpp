@@ -28,10 +28,10 @@ class Folder : public testing::Test {
 
   [[nodiscard]] fs::path journal() const { return path_ / "journal.csv"; }
   [[nodiscard]] std::string bytes() const {
-    return navvi_config::read_file(journal()).value_or("");
+    return navvi_files::read_file(journal()).value_or("");
   }
   [[nodiscard]] Journal open(
-      navvi_config::SystemCalls calls = navvi_config::SystemCalls::real()) const {
+      navvi_files::SystemCalls calls = navvi_files::SystemCalls::real()) const {
     return Journal(path_, "trial-1", 0, std::move(calls));
   }
   /// A finished trial's journal.
@@ -47,7 +47,7 @@ class Folder : public testing::Test {
     return bytes();
   }
   void put(const std::string& text) const {
-    ASSERT_FALSE(navvi_config::write_atomically(journal(), text).has_value());
+    ASSERT_FALSE(navvi_files::write_atomically(journal(), text).has_value());
   }
 
   fs::path path_;
@@ -111,7 +111,7 @@ TEST_F(AJournal, cut_anywhere_keeps_the_rows_before) {
 }
 
 TEST_F(AJournal, survives_interrupted_and_short_writes) {
-  navvi_config::SystemCalls calls = navvi_config::SystemCalls::real();
+  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   int turn = 0;
   calls.write = [&turn](int file, const void* data, std::size_t size) -> ssize_t {
     if (++turn % 2 == 0) {
@@ -128,7 +128,7 @@ TEST_F(AJournal, survives_interrupted_and_short_writes) {
 }
 
 TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
-  navvi_config::SystemCalls calls = navvi_config::SystemCalls::real();
+  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   bool fail = false;
   int asked = 0;
   calls.fdatasync = [&](int file) {
@@ -150,7 +150,7 @@ TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
 }
 
 TEST_F(AJournal, on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
-  navvi_config::SystemCalls calls = navvi_config::SystemCalls::real();
+  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   bool full = false;
   calls.write = [&](int file, const void* data, std::size_t size) -> ssize_t {
     if (full && fs::exists(path_ / "journal.reserve")) {
@@ -243,7 +243,7 @@ TEST_F(Recovering, still_calls_it_invalid_if_it_was_itself_cut_short) {
   std::string whole = finished();
   whole[whole.find("reached")] = 'X';
   const std::string good = whole.substr(0, read_journal(whole).good_bytes);
-  ASSERT_FALSE(navvi_config::write_atomically(path_ / "journal.torn", whole.substr(good.size()))
+  ASSERT_FALSE(navvi_files::write_atomically(path_ / "journal.torn", whole.substr(good.size()))
                    .has_value());
   put(good);
   EXPECT_EQ(recover(path_).rows.back().fields.get("result"), "invalid");
@@ -257,27 +257,27 @@ TEST_F(Recovering, writes_a_missing_summary_again) {
     ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
   }
   EXPECT_EQ(recover_trials(path_).size(), 1u);
-  EXPECT_TRUE(parse_summary(navvi_config::read_file(folder / "summary.csv").value_or("")));
+  EXPECT_TRUE(parse_summary(navvi_files::read_file(folder / "summary.csv").value_or("")));
   EXPECT_EQ(recover_trials(path_).size(), 0u);
 }
 
 TEST_F(Folder, a_file_is_replaced_as_a_whole_or_not_at_all) {
   const fs::path file = path_ / "summary.csv";
-  ASSERT_FALSE(navvi_config::write_atomically(file, "old").has_value());
-  navvi_config::SystemCalls calls = navvi_config::SystemCalls::real();
+  ASSERT_FALSE(navvi_files::write_atomically(file, "old").has_value());
+  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   calls.fsync = [](int) {
     errno = EIO;
     return -1;
   };
-  EXPECT_TRUE(navvi_config::write_atomically(file, "new", calls).has_value());
-  EXPECT_EQ(navvi_config::read_file(file).value(), "old");
-  calls = navvi_config::SystemCalls::real();
+  EXPECT_TRUE(navvi_files::write_atomically(file, "new", calls).has_value());
+  EXPECT_EQ(navvi_files::read_file(file).value(), "old");
+  calls = navvi_files::SystemCalls::real();
   calls.rename = [](const char*, const char*) {
     errno = EROFS;
     return -1;
   };
-  EXPECT_TRUE(navvi_config::write_atomically(file, "new", calls).has_value());
-  EXPECT_EQ(navvi_config::read_file(file).value(), "old");
+  EXPECT_TRUE(navvi_files::write_atomically(file, "new", calls).has_value());
+  EXPECT_EQ(navvi_files::read_file(file).value(), "old");
   EXPECT_FALSE(fs::exists(path_ / "summary.csv.tmp"));
 }
 

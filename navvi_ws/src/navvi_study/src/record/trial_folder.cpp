@@ -45,13 +45,13 @@ fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
   throw std::runtime_error("no trial: 999 trials of this second are in " + out.string());
 }
 
-navvi_config::Problem write_results(const fs::path& folder, const std::vector<Row>& rows,
-                                    const navvi_config::SystemCalls& calls) {
+navvi_files::Problem write_results(const fs::path& folder, const std::vector<Row>& rows,
+                                    const navvi_files::SystemCalls& calls) {
   if (const auto problem =
-          navvi_config::write_atomically(folder / "events.csv", events_csv(rows), calls)) {
+          navvi_files::write_atomically(folder / "events.csv", events_csv(rows), calls)) {
     return problem;
   }
-  return navvi_config::write_atomically(folder / "summary.csv", summary_csv(summarize(rows)),
+  return navvi_files::write_atomically(folder / "summary.csv", summary_csv(summarize(rows)),
                                         calls);
 }
 

@@ -2,7 +2,7 @@
 
 #include <ctime>
 #include <filesystem>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <string>
 #include <vector>
 
@@ -20,9 +20,9 @@ namespace navvi_study::record {
                                                         std::time_t utc);
 
 /// Writes events.csv and summary.csv from the journal's rows; each is replaced as a whole.
-[[nodiscard]] navvi_config::Problem write_results(
+[[nodiscard]] navvi_files::Problem write_results(
     const std::filesystem::path& folder, const std::vector<Row>& rows,
-    const navvi_config::SystemCalls& calls = navvi_config::SystemCalls::real());
+    const navvi_files::SystemCalls& calls = navvi_files::SystemCalls::real());
 
 /// Brings every trial under `out` in order that a crash left open. \return sentences, one a trial
 /// that was changed or could not be

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <navvi_types/scenario.hpp>
 #include <string>
 
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  const auto text = navvi_config::read_file(folder / "summary.csv");
+  const auto text = navvi_files::read_file(folder / "summary.csv");
   const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
   if (!summary || !std::filesystem::exists(folder / "trial.bag")) {
     std::fprintf(stderr, "%s lacks a %s.\n", folder.c_str(),

@@ -2,7 +2,7 @@
 // Exit 0: equal. 1: differs. 2: cannot be compared.
 
 #include <cstdio>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 #include <string>
 
 #include "record/child_process.hpp"
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  const auto text = navvi_config::read_file(folder / "summary.csv");
+  const auto text = navvi_files::read_file(folder / "summary.csv");
   const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
   if (!summary) {
     std::fprintf(stderr, "summary.csv is missing or damaged in %s.\n", folder.c_str());

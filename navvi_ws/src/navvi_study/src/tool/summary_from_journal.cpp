@@ -2,7 +2,7 @@
 // summary.csv. Exit 0: equal. 1: differs. 2: cannot be compared.
 
 #include <cstdio>
-#include <navvi_config/files.hpp>
+#include <navvi_files/files.hpp>
 
 #include "record/journal.hpp"
 #include "record/metrics.hpp"
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  const auto bytes = navvi_config::read_file(folder / "journal.csv");
+  const auto bytes = navvi_files::read_file(folder / "journal.csv");
   if (!bytes) {
     std::fprintf(stderr, "journal.csv is missing in %s.\n", folder.c_str());
     return 2;
@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   }
   const auto recount = study::record::summarize(contents.rows);
   std::printf("%s", study::record::summary_csv(recount).c_str());
-  const auto text = navvi_config::read_file(folder / "summary.csv");
+  const auto text = navvi_files::read_file(folder / "summary.csv");
   const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
   if (!summary) {
     std::fprintf(stderr, "summary.csv is missing or damaged in %s.\n", folder.c_str());

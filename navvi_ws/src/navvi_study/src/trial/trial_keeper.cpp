@@ -50,7 +50,7 @@ void set_study(record::Fields& fields, const StudyConfig& study) {
 }  // namespace
 
 TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
-                         navvi_config::SystemCalls calls)
+                         navvi_files::SystemCalls calls)
     : config_(config),
       outlets_(std::move(outlets)),
       calls_(std::move(calls)),

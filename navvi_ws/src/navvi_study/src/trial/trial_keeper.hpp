@@ -59,7 +59,7 @@ class TrialKeeper {
   /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
   /// \param calls  of the journals
   TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
-              navvi_config::SystemCalls calls = navvi_config::SystemCalls::real());
+              navvi_files::SystemCalls calls = navvi_files::SystemCalls::real());
 
   /// What the other nodes report; for odometry, in odom.
   template <typename Report>
@@ -165,7 +165,7 @@ class TrialKeeper {
 
   TrialNodeConfig config_;
   Outlets outlets_;
-  navvi_config::SystemCalls calls_;
+  navvi_files::SystemCalls calls_;
   Moment now_;
   Moment began_;  ///< the trial
 

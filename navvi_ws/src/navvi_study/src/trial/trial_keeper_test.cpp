@@ -48,7 +48,7 @@ class Trials : public testing::Test {
       return std::make_unique<BagRecorder>(bag, "recorder", std::vector<std::string>{},
                                            program.string());
     };
-    navvi_config::SystemCalls calls = navvi_config::SystemCalls::real();
+    navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
     calls.write = [this, write = calls.write](int file, const void* bytes, std::size_t count) {
       if (failures_ == 0) return write(file, bytes, count);
       --failures_;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <navvi_config/cache.hpp>
+#include <navvi_files/cache.hpp>
 #include <navvi_config/field.hpp>
 #include <navvi_types/guidance.hpp>
 #include <optional>
@@ -33,7 +33,7 @@ class NavigationConfig {
 class Navigation {
  public:
   /// \param cache  of meshes of first maps, which must last as long; nullptr: none is kept
-  explicit Navigation(const NavigationConfig& config, const navvi_config::Cache* cache = nullptr);
+  explicit Navigation(const NavigationConfig& config, const navvi_files::Cache* cache = nullptr);
   ~Navigation();
 
   /// \param data  of a binary OctoMap message, as are `id` and `resolution`, m

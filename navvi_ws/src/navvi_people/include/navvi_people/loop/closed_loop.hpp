@@ -9,7 +9,7 @@
 #include <navvi_msgs/Proximity.h>
 #include <octomap_msgs/Octomap.h>
 
-#include <navvi_config/cache.hpp>
+#include <navvi_files/cache.hpp>
 #include <navvi_feedback/lockstep/guide.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
@@ -66,7 +66,7 @@ class ClosedLoop {
   /// nullptr: nothing is kept
   /// \throws WorldError or ConfigError with a sentence
   ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
-             const navvi_config::Cache* cache = nullptr);
+             const navvi_files::Cache* cache = nullptr);
 
   /// One step of the world, and whatever is due after it. \return false if the world has stopped
   /// because a number in it is not finite
@@ -103,7 +103,7 @@ class ClosedLoop {
     octomap_msgs::Octomap map;
     std::optional<RobotSenses> senses = {};  ///< where the truth is not told
 
-    Setting(const ClosedLoopConfig& config, const navvi_config::Cache* cache);
+    Setting(const ClosedLoopConfig& config, const navvi_files::Cache* cache);
   };
 
   [[nodiscard]] bool turn_wheels();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <navvi_config/cache.hpp>
+#include <navvi_files/cache.hpp>
 
 #include "navvi_sim/occupancy/occupancy_map.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
@@ -18,6 +18,6 @@ struct Course {
 /// \param world  of load_world \param cache  nullptr: nothing is kept
 /// \throws ConfigError or WorldError with a sentence
 [[nodiscard]] Course course_of(const SimNodeConfig& config, const WorldDescription& world,
-                               const navvi_config::Cache* cache = nullptr);
+                               const navvi_files::Cache* cache = nullptr);
 
 }  // namespace navvi_sim::setup

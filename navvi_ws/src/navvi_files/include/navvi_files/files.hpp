@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace navvi_config {
+namespace navvi_files {
 
 /// The calls that can fail on a bad day. Tests put their own in place.
 struct SystemCalls {
@@ -40,4 +40,4 @@ using Problem = std::optional<std::string>;
 /// Writes all of `bytes`; continues after EINTR and short writes. \return 0 or errno
 [[nodiscard]] int write_all(int file, std::string_view& bytes, const SystemCalls& calls);
 
-}  // namespace navvi_config
+}  // namespace navvi_files

@@ -1,8 +1,8 @@
-#include "navvi_config/bytes.hpp"
+#include "navvi_files/bytes.hpp"
 
 #include <algorithm>
 
-namespace navvi_config {
+namespace navvi_files {
 
 std::uint64_t hash_of(std::string_view bytes) {
   constexpr std::uint64_t kBasis = 0xCBF29CE484222325ull, kPrime = 0x100000001B3ull;
@@ -17,4 +17,4 @@ std::uint64_t hash_of(std::string_view bytes) {
   return (hash ^ size) * kPrime;
 }
 
-}  // namespace navvi_config
+}  // namespace navvi_files

@@ -1,4 +1,4 @@
-#include "navvi_config/files.hpp"
+#include "navvi_files/files.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace navvi_config {
+namespace navvi_files {
 namespace fs = std::filesystem;
 
 SystemCalls SystemCalls::real() { return {::write, ::fdatasync, ::fsync, ::rename}; }
@@ -71,4 +71,4 @@ std::optional<std::string> read_file(const fs::path& path) {
   return bytes;
 }
 
-}  // namespace navvi_config
+}  // namespace navvi_files

@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
-#include "navvi_config/files.hpp"
+#include "navvi_files/files.hpp"
 
-namespace navvi_config {
+namespace navvi_files {
 
 struct CacheConfig {
   std::filesystem::path folder;    ///< of this cache alone
@@ -42,4 +42,4 @@ class Cache {
   SystemCalls calls_;
 };
 
-}  // namespace navvi_config
+}  // namespace navvi_files

@@ -1,4 +1,4 @@
-#include "navvi_config/cache.hpp"
+#include "navvi_files/cache.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "navvi_config/bytes.hpp"
+#include "navvi_files/bytes.hpp"
 
-namespace navvi_config {
+namespace navvi_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -195,4 +195,4 @@ TEST(HashOfBytes, tells_each_changed_bit_and_the_length_apart) {
 }
 
 }  // namespace
-}  // namespace navvi_config
+}  // namespace navvi_files

@@ -1,11 +1,11 @@
-#include "navvi_config/json.hpp"
+#include "navvi_files/json.hpp"
 
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
 #include <limits>
 
-namespace navvi_config {
+namespace navvi_files {
 namespace {
 
 TEST(Json, is_read_back_by_a_reader_of_yaml_which_takes_json) {
@@ -30,4 +30,4 @@ TEST(Json, that_cannot_be_written_is_an_error) {
 }
 
 }  // namespace
-}  // namespace navvi_config
+}  // namespace navvi_files

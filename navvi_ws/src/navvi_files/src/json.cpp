@@ -1,13 +1,12 @@
-#include "navvi_config/json.hpp"
+#include "navvi_files/json.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <stdexcept>
 
-#include "navvi_config/reader.hpp"
-
-namespace navvi_config {
+namespace navvi_files {
 namespace {
 
 std::string between(char open, const std::vector<std::string>& values, char close) {
@@ -52,7 +51,7 @@ std::string json_object(const JsonFields& fields) {
 void write_json(const std::filesystem::path& path, const JsonFields& fields) {
   std::ofstream file(path);
   file << json_object(fields) << '\n';
-  if (!file.flush()) throw ConfigError("the file '" + path.string() + "' cannot be written");
+  if (!file.flush()) throw std::runtime_error("the file '" + path.string() + "' cannot be written");
 }
 
-}  // namespace navvi_config
+}  // namespace navvi_files

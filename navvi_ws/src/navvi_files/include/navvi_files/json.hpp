@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace navvi_config {
+namespace navvi_files {
 
 /// What one program prints for another. Values are JSON already.
 using JsonFields = std::vector<std::pair<std::string, std::string>>;
@@ -22,4 +22,4 @@ using JsonFields = std::vector<std::pair<std::string, std::string>>;
 /// Throws ConfigError where the file cannot be written.
 void write_json(const std::filesystem::path& path, const JsonFields& fields);
 
-}  // namespace navvi_config
+}  // namespace navvi_files

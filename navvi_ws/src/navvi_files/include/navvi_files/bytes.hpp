@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace navvi_config {
+namespace navvi_files {
 
 /// FNV-1a (Fowler, Noll and Vo, 1991) over words of 8 bytes, folded after each, the last word
 /// filled up with zeros, then over the number of bytes. Any change within one word changes it.
@@ -79,4 +79,4 @@ class ByteReader {
   bool good_ = true;
 };
 
-}  // namespace navvi_config
+}  // namespace navvi_files

@@ -1,4 +1,4 @@
-#include "navvi_config/cache.hpp"
+#include "navvi_files/cache.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "navvi_config/bytes.hpp"
+#include "navvi_files/bytes.hpp"
 
-namespace navvi_config {
+namespace navvi_files {
 namespace {
 
 namespace fs = std::filesystem;
@@ -126,4 +126,4 @@ void Cache::make_room(const fs::path& folder) const {
   }
 }
 
-}  // namespace navvi_config
+}  // namespace navvi_files
