@@ -104,7 +104,7 @@ class SessionJudge {
     input.motors = now.motors;
     input.states = now.notices;
     if (now.asked) input.asked = {*now.asked};
-    const Feedback::Output out = feedback_.update(input, !queue_.empty(), time);
+    const Feedback::Decided out = feedback_.update(input, !queue_.empty(), time);
     if (out.pattern) felt.insert(navvi_types::to_string(*out.pattern));
     touched_ = out.pattern.has_value();
     for (const sounds::Play& play : out.plays) played.insert(navvi_types::to_string(play.earcon));
@@ -222,7 +222,7 @@ class SessionJudge {
 
   /// Voice, pad and sounds follow the order that banner, panel and plate show and have from nowhere
   /// else.
-  void expect_one_order(const Feedback::Output& out) {
+  void expect_one_order(const Feedback::Decided& out) {
     const bool halts = out.pattern == haptics::Pattern::halt;
     const bool halt_begins = !std::exchange(feels_halt_, halts) && halts;
     if (std::exchange(beats_, (beats_ + 1) % 5) != 0 && !says_way_ && !halt_begins) return;

@@ -270,7 +270,8 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
   EXPECT_EQ(node.exit_code(), 0);
   const fs::path folder = only_folder();
 
-  const auto journal = record::read_journal(navvi_files::read_file(folder / "journal.csv").value_or(""));
+  const auto journal =
+      record::read_journal(navvi_files::read_file(folder / "journal.csv").value_or(""));
   EXPECT_EQ(journal.damage, "");
   // What was published is what is on the disk; the row on the closed bag may come too late to hear.
   ASSERT_GE(world.events.size() + 1, journal.rows.size());

@@ -92,12 +92,12 @@ void Feedback::note(const std::vector<CueEvent>& events) {
   }
 }
 
-Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, double time) {
+Feedback::Decided Feedback::update(const Devices& devices, bool voice_busy, double time) {
   const double dt = std::clamp(time - last_update_.value_or(time), 0.0, kLongestTick);
   last_update_ = time;
   auto& [drive, assistance, buttons, touch, sounds, phrases, cues, side, menu, teacher] =
       *deciders_;
-  Output out;
+  Decided out;
   out.command = command(devices, dt);
   Observation now = observe(devices, voice_busy, dt, time);
   ask_side(now, time, out);
@@ -114,6 +114,8 @@ Feedback::Output Feedback::update(const Devices& devices, bool voice_busy, doubl
   out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),
                                 [](const cues::Cue& cue) { return cue.felt; }),
                  out.cues.end());
+  out.answers =
+      std::any_of(out.cues.begin(), out.cues.end(), [](const cues::Cue& cue) { return cue.asked; });
   const sounds::Soundscape::Lead led = lead(now, dt);
   for (const sounds::Play& play : sounds.update(out.cues, now, led, teacher.taught(), time))
     out.plays.push_back(play);

@@ -15,9 +15,8 @@
 #include "cues/asked.hpp"
 #include "cues/cue.hpp"
 #include "haptics/pattern.hpp"
-#include "navvi_feedback/menu/named_place.hpp"
+#include "navvi_feedback/core/output.hpp"
 #include "navvi_feedback/senses/devices.hpp"
-#include "navvi_feedback/sounds/earcon.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
 #include "senses/senses.hpp"
 #include "sounds/soundscape.hpp"
@@ -37,21 +36,10 @@ namespace navvi_feedback::core {
 /// Times are s of one clock that does not run backwards.
 class Feedback {
  public:
-  struct Output {
-    std::optional<Velocity> command;  ///< nullopt: nothing is sent
-    double share = 1.0;  ///< [0, 1], of the person's speed that assistance lets through
-    haptics::Rumble rumble;
-    std::optional<haptics::Pattern> pattern;  ///< that `rumble` is part of
-    bool alarm_begins = false;                ///< the motors begin to report that there is no sound
+  /// But for what the voice makes of the cues, and the motors of the rumble.
+  struct Decided : Output {
     std::vector<cues::Cue> cues;              ///< to be spoken, most urgent first
-    std::vector<sounds::Play> plays;          ///< to be played now
-    std::optional<TrialRequest::Kind> request;
-    std::optional<Eigen::Vector2d> goal;    ///< m, in map, that the person has chosen
-    std::optional<menu::NamedPlace> place;  ///< to be remembered
-    std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
-    bool lesson_over = false;           ///< of FeedbackConfig::lesson
-    std::string record;                 ///< how it went so far, as a table in CSV
-    std::vector<std::string> settings;  ///< that it has found, such as haptics/enabled:=true
+    std::optional<haptics::Pattern> pattern;  ///< that `rumble` is part of
   };
 
   /// \param phrases  file of the spoken phrases
@@ -76,7 +64,7 @@ class Feedback {
   void use(const FeedbackConfig& config);
 
   /// Call it at 50 Hz. \param voice_busy  something is being spoken or waits for it
-  [[nodiscard]] Output update(const Devices& devices, bool voice_busy, double time);
+  [[nodiscard]] Decided update(const Devices& devices, bool voice_busy, double time);
   /// As CuePolicy::note().
   void note(const std::vector<CueEvent>& events);
 

@@ -30,8 +30,8 @@ class FeedbackTest : public testing::Test {
   }
 
   /// \return the last output
-  Feedback::Output pass(double seconds) {
-    Feedback::Output output;
+  Feedback::Decided pass(double seconds) {
+    Feedback::Decided output;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
       output = feedback_.update(input_, voice_busy_, time_);
       for (const cues::Cue& cue : output.cues) kinds_.push_back(cue.kind);
@@ -44,7 +44,7 @@ class FeedbackTest : public testing::Test {
   double strongest(double seconds) {
     double most = 0.0;
     for (const double end = time_ + seconds; time_ < end - 1e-9;) {
-      const Feedback::Output output = pass(0.02);
+      const Feedback::Decided output = pass(0.02);
       most = std::max(most, std::min(output.rumble.left, output.rumble.right));
       alarms_ += output.alarm_begins ? 1 : 0;
     }
@@ -109,7 +109,7 @@ TEST_F(FeedbackTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last
   hold(0.0, 1.0);
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
   input_.hands = {};
-  const Feedback::Output lost = pass(0.02);
+  const Feedback::Decided lost = pass(0.02);
   ASSERT_TRUE(lost.command);
   EXPECT_EQ(lost.command->linear, 0.0);
   EXPECT_FALSE(pass(0.02).command);
@@ -148,7 +148,7 @@ class Driven : public FeedbackTest {
     FeedbackConfig config;
     navvi_config::read(config, YAML::Load(parameters), "test");
     Feedback feedback(config, kEnglish);
-    Feedback::Output output;
+    Feedback::Decided output;
     for (int tick = 0; tick < 125; ++tick, time_ += 0.02) {
       input_.hands.axes = tick < 25 ? std::vector<double>(axes.size()) : axes;
       input_.hands.buttons = buttons;
@@ -205,7 +205,7 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   bool felt = false;
   for (int tick = 0; tick < 200; ++tick) {
     feedback_.take(Odometry{}, time_);
-    const Feedback::Output out = pass(0.02);
+    const Feedback::Decided out = pass(0.02);
     EXPECT_EQ(out.command.value().linear, 0.0);
     felt = felt || out.pattern == haptics::Pattern::ready;
   }
@@ -292,7 +292,7 @@ class RememberTest : public FeedbackTest {
     kept_->take(Guidance{}, time_);
     kept_->take(Odometry{}, time_);
   }
-  Feedback::Output beat() { return kept_->update(input_, false, time_ += 0.02); }
+  Feedback::Decided beat() { return kept_->update(input_, false, time_ += 0.02); }
   /// What is told of it.
   std::string remember() {
     place_.reset();
@@ -300,7 +300,7 @@ class RememberTest : public FeedbackTest {
     for (const drive::Button button :
          {drive::Button::next, drive::Button::previous, drive::Button::choose}) {
       input_.asked = {button};
-      const Feedback::Output output = beat();
+      const Feedback::Decided output = beat();
       input_.asked.clear();
       if (output.place) place_ = output.place;
       told = output.cues.empty() ? "" : output.cues.at(0).text;
@@ -344,7 +344,7 @@ TEST_F(RememberTest, saves_nothing_without_a_file_or_a_known_place) {
 TEST_F(RememberTest, saves_what_is_clicked_but_never_in_a_study) {
   use_file();
   kept_->take_place({7.0, 8.0});
-  const Feedback::Output output = beat();
+  const Feedback::Decided output = beat();
   EXPECT_EQ(output.cues.at(0).text, "saved as place 1");
   EXPECT_EQ(output.place.value().at, Eigen::Vector2d(7.0, 8.0));
   EXPECT_FALSE(beat().place);
@@ -363,7 +363,7 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   const auto press = [&](std::size_t button) {
     input_.hands.buttons.assign(15, false);
     input_.hands.buttons[button] = true;
-    const Feedback::Output output = pass(0.02);
+    const Feedback::Decided output = pass(0.02);
     input_.hands.buttons.assign(15, false);
     pass(0.1);
     return output;
@@ -428,7 +428,7 @@ class SidesTest : public FeedbackTest {
     for (const double end = time_ + seconds; time_ < end - 1e-9;) {
       feedback_.take(state_, time_);
       feedback_.take(Odometry{}, time_);
-      const Feedback::Output output = pass(0.02);
+      const Feedback::Decided output = pass(0.02);
       if (!output.change.empty()) change = output.change;
       for (const sounds::Play& play : output.plays) side_ = play.from.y();
       CueEvent event;
@@ -513,7 +513,7 @@ TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_
   const auto press = [&](std::size_t button) {
     input_.hands.buttons.assign(15, false);
     input_.hands.buttons[button] = true;
-    const Feedback::Output output = pass(0.02);
+    const Feedback::Decided output = pass(0.02);
     input_.hands.buttons.assign(15, false);
     return output;
   };
@@ -525,7 +525,7 @@ TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_
   pass(0.1);
   press(kRight);
   pass(0.1);
-  const Feedback::Output weaker = press(kDown);
+  const Feedback::Decided weaker = press(kDown);
   EXPECT_EQ(weaker.cues.at(0).text, "strength of vibration 60 percent");
   EXPECT_EQ(weaker.change, "haptics/strength:=0.6");
   EXPECT_EQ(weaker.pattern, haptics::Pattern::sample);
@@ -593,7 +593,7 @@ TEST_F(FeedbackTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
   feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.1, {0.5, 0.0}, true}}}, time_);
   pass(0.5);
   feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
-  const Feedback::Output output = pass(0.02);
+  const Feedback::Decided output = pass(0.02);
   EXPECT_EQ(output.pattern, haptics::Pattern::hit_shelf);
   EXPECT_EQ(output.rumble.left, 1.0);
   EXPECT_EQ(output.rumble.right, 0.0);
@@ -722,7 +722,7 @@ TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
   double time = 10.0;
   for (const auto& [pad, most] : {std::pair("abc", 0.5), std::pair("other", 1.0)}) {
     input.pad = pad;
-    Feedback::Output output;
+    Feedback::Decided output;
     for (int i = 0; i < 100; ++i, time += 0.02) {
       feedback.take(Odometry{}, time);
       feedback.take(Proximity{0, {{ThingClass::box, 1, 0.0, {0.4, 0.0}}}}, time);
@@ -746,12 +746,12 @@ class Learner {
     config.lesson = lesson;
     return config;
   }
-  void learn(double seconds, const std::function<void(const Feedback::Output&)>& note) {
+  void learn(double seconds, const std::function<void(const Feedback::Decided&)>& note) {
     for (const double end = time_ + seconds; time_ < end; time_ += 0.02) {
       voice_busy_ = time_ < speaks_until_;
       const double silent = time_ - speaks_until_;
       input_.hands.buttons[12] = silent > 4.0 && silent < 4.1;
-      const Feedback::Output output = feedback_.update(input_, voice_busy_, time_);
+      const Feedback::Decided output = feedback_.update(input_, voice_busy_, time_);
       if (!output.cues.empty()) speaks_until_ = time_ + 0.5;
       note(output);
     }
@@ -771,7 +771,7 @@ TEST(Lesson, is_given_by_the_motors_and_sounds_of_a_session_and_drives_no_robot)
   std::set<haptics::Pattern> felt;
   double left_alone = 0.0;
   learner.input_.hands.axes = {0.0, 1.0};
-  learner.learn(400.0, [&](const Feedback::Output& output) {
+  learner.learn(400.0, [&](const Feedback::Decided& output) {
     EXPECT_FALSE(output.command);
     for (const cues::Cue& cue : output.cues) said.insert(cue.word());
     for (const sounds::Play& play : output.plays) heard.insert(play.earcon);
@@ -793,7 +793,7 @@ TEST(Lesson, lets_a_newcomer_drive_before_the_trial_and_the_guide_says_what_is_u
   learner.feedback_.take(waits, learner.time_);
   std::set<std::string> said;
   double fastest = 0.0;
-  learner.learn(30.0, [&](const Feedback::Output& output) {
+  learner.learn(30.0, [&](const Feedback::Decided& output) {
     learner.feedback_.take(Odometry{}, learner.time_);
     learner.feedback_.take(Proximity{}, learner.time_);
     learner.input_.hands.axes = {0.0, learner.time_ > 15.0 ? 1.0 : 0.0};

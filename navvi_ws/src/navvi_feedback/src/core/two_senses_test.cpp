@@ -130,7 +130,7 @@ Signals signals(const Family& family, Lost lost) {
   for (double time = 10.0; time < 18.0; time += 0.02) {
     input.hands.axes = {0.0, time < 10.5 ? 0.0 : 1.0};
     family.happens(feedback, input, time);
-    const Feedback::Output out = feedback.update(input, false, time);
+    const Feedback::Decided out = feedback.update(input, false, time);
     if (lost != Lost::sound) {
       for (const cues::Cue& cue : out.cues) result.said.insert(to_string(cue.kind));
       for (const sounds::Play& play : out.plays)

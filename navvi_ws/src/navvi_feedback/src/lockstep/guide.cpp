@@ -1,6 +1,5 @@
 #include "navvi_feedback/lockstep/guide.hpp"
 
-#include <algorithm>
 #include <navvi_types/stall_guard.hpp>
 #include <utility>
 
@@ -44,36 +43,17 @@ struct Guide::Parts {
   std::uint32_t sounds = 0;
 
   void move_motors(const haptics::Rumble& rumble, std::optional<haptics::Pattern> pattern,
-                   bool somebody_feels, double time, Told& told) {
+                   bool somebody_feels, double time, Output& out) {
     const haptics::RumbleOutput::Due due = rumble_output.update(rumble, time);
-    told.rumble = rumble;
-    told.rumble_due = due.feedback;
-    told.rumble_moved = due.moved;
+    out.rumble = rumble;
+    out.rumble_due = due.feedback;
+    out.rumble_moved = due.moved;
     // The record holds what can have been felt.
-    if (due.changed && somebody_feels) told.felt = rumble_event(rumble, pattern, ++rumbles);
+    if (due.changed && somebody_feels) out.felt = rumble_event(rumble, pattern, ++rumbles);
   }
 };
 
 namespace {
-
-/// All but what is said and felt.
-Told told_of(Feedback::Output& output) {
-  Told told;
-  told.command = output.command;
-  told.share = output.share;
-  told.alarm_begins = output.alarm_begins;
-  told.answers = std::any_of(output.cues.begin(), output.cues.end(),
-                             [](const cues::Cue& cue) { return cue.asked; });
-  told.plays = std::move(output.plays);
-  told.request = output.request;
-  told.goal = output.goal;
-  told.place = std::move(output.place);
-  told.change = std::move(output.change);
-  told.lesson_over = output.lesson_over;
-  told.record = std::move(output.record);
-  told.settings = std::move(output.settings);
-  return told;
-}
 
 /// Where no words are wanted, there are none in the record.
 std::vector<CueEvent> as_heard(cues::HeardWords& words, const std::vector<CueEvent>& events,
@@ -129,19 +109,19 @@ void Guide::end_trial(std::optional<CueKind> words) {
   parts_->last_words = true;
 }
 
-std::optional<Told> Guide::update(const Devices& devices, double time) {
+std::optional<Output> Guide::update(const Devices& devices, double time) {
   if (parts_->stall.catches_up(time)) return std::nullopt;
   Devices now = devices;
   now.states.insert(now.states.end(), parts_->news.begin(), parts_->news.end());
   parts_->news.clear();
-  Feedback::Output output = parts_->feedback.update(now, !parts_->queue.empty(), time);
-  Told told = told_of(output);
-  parts_->move_motors(output.rumble, output.pattern, devices.felt, time, told);
-  const cues::CueQueue::Step step = parts_->queue.update(output.cues, devices.speaking, time);
+  const Feedback::Decided decided = parts_->feedback.update(now, !parts_->queue.empty(), time);
+  Output out = decided;
+  parts_->move_motors(decided.rumble, decided.pattern, devices.felt, time, out);
+  const cues::CueQueue::Step step = parts_->queue.update(decided.cues, devices.speaking, time);
   parts_->feedback.note(step.events);
-  told.voice = step;
-  told.said = as_heard(parts_->heard_words, step.events, devices);
-  return told;
+  out.voice = step;
+  out.said = as_heard(parts_->heard_words, step.events, devices);
+  return out;
 }
 
 bool Guide::end_session() {
@@ -151,22 +131,22 @@ bool Guide::end_session() {
 
 bool Guide::has_last_words() const { return parts_->last_words && !parts_->queue.empty(); }
 
-Told Guide::hear_out(const Devices& devices, double time) {
+Output Guide::hear_out(const Devices& devices, double time) {
   const cues::CueQueue::Step step = parts_->queue.update({}, devices.speaking, time);
   parts_->feedback.note(step.events);
-  Told told;
-  parts_->move_motors({}, std::nullopt, devices.felt, time, told);
-  told.voice = step;
-  told.said = as_heard(parts_->heard_words, step.events, devices);
-  return told;
+  Output out;
+  parts_->move_motors({}, std::nullopt, devices.felt, time, out);
+  out.voice = step;
+  out.said = as_heard(parts_->heard_words, step.events, devices);
+  return out;
 }
 
-Told Guide::finish(const Devices& devices) {
+Output Guide::finish(const Devices& devices) {
   const cues::CueQueue::Step step = parts_->queue.clear();
-  Told told;
-  told.voice = step;
-  told.said = as_heard(parts_->heard_words, step.events, devices);
-  return told;
+  Output out;
+  out.voice = step;
+  out.said = as_heard(parts_->heard_words, step.events, devices);
+  return out;
 }
 
 CueEvent Guide::event_of(const sounds::Play& play) { return sound_event(play, ++parts_->sounds); }

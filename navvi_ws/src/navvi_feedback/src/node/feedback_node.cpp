@@ -27,7 +27,7 @@ namespace navvi_feedback::node {
 using devices::Chain;
 using devices::InputSource;
 using devices::Latencies;
-using lockstep::Told;
+using lockstep::Output;
 
 namespace {
 
@@ -115,7 +115,7 @@ class FeedbackNode {
                   ahead ? inlets_.preview() : inlets_.path(), words_, time);
   }
 
-  void tell(const Told& told, const std::function<void()>& called) {
+  void tell(const Output& told, const std::function<void()>& called) {
     settings_.keep(told);
     if (told.lesson_over) g_stop = 1;
     if (!told.change.empty()) change(told.change);

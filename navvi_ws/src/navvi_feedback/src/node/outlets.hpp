@@ -25,7 +25,7 @@ class Outlets {
 
   void stop_wheels();
   /// All but the words.
-  void send(const lockstep::Told& told);
+  void send(const lockstep::Output& told);
   void send(std::vector<CueEvent> events);
   void send(const drive::InputState& hands);
   void send(const diagnostic_msgs::DiagnosticArray& report) { diagnostics_.publish(report); }

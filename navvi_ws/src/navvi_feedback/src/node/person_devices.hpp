@@ -29,7 +29,7 @@ class PersonDevices {
 
   /// The voice obeys, and short sounds begin.
   /// \return sounds that somebody hears, those of a scan among them
-  [[nodiscard]] std::vector<sounds::Play> obey(const lockstep::Told& told);
+  [[nodiscard]] std::vector<sounds::Play> obey(const lockstep::Output& told);
   /// \param called  once the pad's driver was told, if that is another command
   /// \return false: there is no pad of our own
   bool move_motors(const haptics::Rumble& rumble, const std::function<void()>& called);

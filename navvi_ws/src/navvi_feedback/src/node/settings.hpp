@@ -30,7 +30,7 @@ class Settings {
   void change(const std::string& word);
   /// A place to be remembered. A lesson's results: its table goes to the parameter `record`, its
   /// settings to the file.
-  void keep(const lockstep::Told& told);
+  void keep(const lockstep::Output& told);
 
   /// To be called often; does not wait. \return cues that say what has failed, which is logged
   [[nodiscard]] std::vector<CueKind> failures();

@@ -1,7 +1,7 @@
 #include "plan/kept_bake.hpp"
 
-#include <navvi_files/bytes.hpp>
 #include <navvi_config/writer.hpp>
+#include <navvi_files/bytes.hpp>
 #include <utility>
 
 #include "bake/baked_bytes.hpp"

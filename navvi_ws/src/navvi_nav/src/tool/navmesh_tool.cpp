@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <navvi_files/json.hpp>
 #include <navvi_config/reader.hpp>
+#include <navvi_files/json.hpp>
 #include <optional>
 #include <sstream>
 #include <stdexcept>

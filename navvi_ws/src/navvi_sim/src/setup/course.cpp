@@ -1,7 +1,7 @@
 #include "navvi_sim/setup/course.hpp"
 
-#include <navvi_files/bytes.hpp>
 #include <navvi_config/writer.hpp>
+#include <navvi_files/bytes.hpp>
 
 #include "navvi_sim/description/world_hash.hpp"
 

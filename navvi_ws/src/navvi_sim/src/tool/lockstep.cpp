@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <navvi_files/files.hpp>
 #include <navvi_config/reader.hpp>
+#include <navvi_files/files.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>

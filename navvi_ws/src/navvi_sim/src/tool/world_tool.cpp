@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iostream>
 #include <map>
-#include <navvi_files/json.hpp>
 #include <navvi_config/reader.hpp>
+#include <navvi_files/json.hpp>
 #include <sstream>
 
 #include "navvi_sim/description/world_hash.hpp"
@@ -147,10 +147,10 @@ navvi_files::JsonFields fields_of(const Request& request, const scenario::StartA
   fields.emplace_back("floor z m", rounded(world.floor_height, 3));
   fields.emplace_back("start x m, y m, yaw rad",
                       navvi_files::json_list({rounded(scenario.start.position.x(), 3),
-                                               rounded(scenario.start.position.y(), 3),
-                                               rounded(scenario.start.yaw, 3)}));
+                                              rounded(scenario.start.position.y(), 3),
+                                              rounded(scenario.start.yaw, 3)}));
   fields.emplace_back("goal x m, y m", navvi_files::json_list({rounded(scenario.goal.x(), 3),
-                                                                rounded(scenario.goal.y(), 3)}));
+                                                               rounded(scenario.goal.y(), 3)}));
   return fields;
 }
 

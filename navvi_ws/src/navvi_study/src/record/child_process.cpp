@@ -34,9 +34,8 @@ int answer_into(std::FILE* file, const std::function<std::string()>& work) {
     code = 2;
   }
   std::string_view rest = answer;
-  return navvi_files::write_all(::fileno(file), rest, navvi_files::SystemCalls::real()) == 0
-             ? code
-             : 2;
+  return navvi_files::write_all(::fileno(file), rest, navvi_files::SystemCalls::real()) == 0 ? code
+                                                                                             : 2;
 }
 
 /// \return the child's id, or -1

@@ -165,7 +165,7 @@ namespace {
 
 /// Appends to what a crash left; `contents` has been read from `file`.
 navvi_files::Problem mend(const fs::path& folder, int file, const std::string& bytes,
-                           JournalContents& contents, Recovery& recovery) {
+                          JournalContents& contents, Recovery& recovery) {
   const navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   if (!contents.damage.empty()) {
     const std::string tail = bytes.substr(contents.good_bytes);

@@ -27,9 +27,7 @@ class Folder : public testing::Test {
   void TearDown() override { fs::remove_all(path_); }
 
   [[nodiscard]] fs::path journal() const { return path_ / "journal.csv"; }
-  [[nodiscard]] std::string bytes() const {
-    return navvi_files::read_file(journal()).value_or("");
-  }
+  [[nodiscard]] std::string bytes() const { return navvi_files::read_file(journal()).value_or(""); }
   [[nodiscard]] Journal open(
       navvi_files::SystemCalls calls = navvi_files::SystemCalls::real()) const {
     return Journal(path_, "trial-1", 0, std::move(calls));
@@ -243,8 +241,8 @@ TEST_F(Recovering, still_calls_it_invalid_if_it_was_itself_cut_short) {
   std::string whole = finished();
   whole[whole.find("reached")] = 'X';
   const std::string good = whole.substr(0, read_journal(whole).good_bytes);
-  ASSERT_FALSE(navvi_files::write_atomically(path_ / "journal.torn", whole.substr(good.size()))
-                   .has_value());
+  ASSERT_FALSE(
+      navvi_files::write_atomically(path_ / "journal.torn", whole.substr(good.size())).has_value());
   put(good);
   EXPECT_EQ(recover(path_).rows.back().fields.get("result"), "invalid");
 }

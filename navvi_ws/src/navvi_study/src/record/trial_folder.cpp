@@ -46,13 +46,12 @@ fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
 }
 
 navvi_files::Problem write_results(const fs::path& folder, const std::vector<Row>& rows,
-                                    const navvi_files::SystemCalls& calls) {
+                                   const navvi_files::SystemCalls& calls) {
   if (const auto problem =
           navvi_files::write_atomically(folder / "events.csv", events_csv(rows), calls)) {
     return problem;
   }
-  return navvi_files::write_atomically(folder / "summary.csv", summary_csv(summarize(rows)),
-                                        calls);
+  return navvi_files::write_atomically(folder / "summary.csv", summary_csv(summarize(rows)), calls);
 }
 
 std::vector<std::string> recover_trials(const fs::path& out) {

@@ -16,15 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/cues/voice_order.hpp"
-#include "navvi_feedback/haptics/rumble.hpp"
-#include "navvi_feedback/menu/named_place.hpp"
+#include "navvi_feedback/core/output.hpp"
 #include "navvi_feedback/senses/devices.hpp"
-#include "navvi_feedback/sounds/earcon.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
 
 namespace navvi_feedback::lockstep {
 
+using core::Output;
 using senses::Devices;
 
 /// The parameters of feedback_node's core.
@@ -46,32 +44,6 @@ class GuideConfig {
 
  private:
   std::unique_ptr<Values> values_;
-};
-
-/// What goes to the wheels, to the person and to other nodes after one beat.
-struct Told {
-  std::optional<navvi_types::Velocity> command;  ///< nullopt: nothing is sent
-  double share = 1.0;  ///< [0, 1], of the person's speed that assistance lets through
-
-  haptics::Rumble rumble;                     ///< of the motors, now
-  bool rumble_due = false;                    ///< other drivers are to be sent it
-  bool rumble_moved = false;                  ///< and it has changed
-  std::optional<navvi_types::CueEvent> felt;  ///< worth a row of the record
-  bool alarm_begins = false;                  ///< the motors begin to report that there is no sound
-
-  cues::VoiceOrder voice;
-  bool answers = false;                     ///< a button's question among the words
-  std::vector<navvi_types::CueEvent> said;  ///< of the words, in order
-  std::vector<sounds::Play> plays;          ///< short sounds that begin now
-
-  std::optional<navvi_types::TrialRequest::Kind> request;
-  std::optional<Eigen::Vector2d> goal;    ///< m, in map, that the person has chosen
-  std::optional<menu::NamedPlace> place;  ///< to be remembered
-  std::string change;  ///< that the person has made, such as "speaker/rate:=240"; empty: none
-
-  bool lesson_over = false;
-  std::string record;                 ///< how the lesson went so far, as a table in CSV
-  std::vector<std::string> settings;  ///< that it has found, such as haptics/enabled:=true
 };
 
 /// The core of feedback_node without devices and without a clock: values and a time go in, orders
@@ -107,15 +79,15 @@ class Guide {
 
   /// One beat, at 50 Hz.
   /// \return nullopt while messages that have waited for a halted program are still to be taken
-  [[nodiscard]] std::optional<Told> update(const Devices& devices, double time);
+  [[nodiscard]] std::optional<Output> update(const Devices& devices, double time);
   /// The session ends: announces it if a trial runs. \return whether a beat is due for it
   [[nodiscard]] bool end_session();
   /// The voice is to be heard out before the session ends.
   [[nodiscard]] bool has_last_words() const;
   /// A beat for the voice alone: the wheels and the motors get nothing.
-  [[nodiscard]] Told hear_out(const Devices& devices, double time);
+  [[nodiscard]] Output hear_out(const Devices& devices, double time);
   /// Ends all words.
-  [[nodiscard]] Told finish(const Devices& devices);
+  [[nodiscard]] Output finish(const Devices& devices);
 
   /// Numbered for the record: a sound that was played.
   [[nodiscard]] navvi_types::CueEvent event_of(const sounds::Play& play);

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <navvi_files/cache.hpp>
 #include <navvi_config/field.hpp>
+#include <navvi_files/cache.hpp>
 #include <navvi_types/guidance.hpp>
 #include <optional>
 #include <string>

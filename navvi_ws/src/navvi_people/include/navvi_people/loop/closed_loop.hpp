@@ -9,8 +9,8 @@
 #include <navvi_msgs/Proximity.h>
 #include <octomap_msgs/Octomap.h>
 
-#include <navvi_files/cache.hpp>
 #include <navvi_feedback/lockstep/guide.hpp>
+#include <navvi_files/cache.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
 #include <navvi_sim/setup/sim_node_config.hpp>
