@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <navvi_types/cue_kind.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "person/settings_saver.hpp"
 
 namespace navvi_feedback::node {
+
+using navvi_types::CueKind;
 
 /// What a person sets while driving, and what a lesson finds for them: in force at once, kept in
 /// their file, and written where the node is started anew. And the places that they remember, which
