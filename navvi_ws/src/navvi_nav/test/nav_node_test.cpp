@@ -263,7 +263,7 @@ class MakePlanTest : public NavNodeTest {
     nav_msgs::GetPlan service;
     service.request.start = start;
     service.request.goal = goal;
-    service.request.kTolerance = tolerance;
+    service.request.tolerance = tolerance;
     EXPECT_TRUE(client_.call(service));
     return service.response.plan;
   }
