@@ -48,7 +48,7 @@ TEST_F(GuideCosts, of_a_turn_grows_with_its_angle_and_is_less_than_that_of_two_h
     EXPECT_GT(turn(degrees), turn(degrees - 5.0)) << degrees;
     EXPECT_NEAR(turn(degrees), turn(-degrees), 1e-9);
   }
-  EXPECT_DOUBLE_EQ(turn(90.0), GuideCostConfig{}.turn_price);
+  EXPECT_DOUBLE_EQ(turn(90.0), GuideCostConfig::kTurnPrice);
   EXPECT_LT(turn(90.0), 2.0 * turn(45.0));
   EXPECT_LT(turn(14.0) - turn(13.0), turn(15.5) - turn(13.0));
 }
@@ -57,7 +57,7 @@ TEST_F(GuideCosts, of_a_path_charges_haste_between_corners_only) {
   const Path ends{{1.5, 8}, {1.6, 8}, {11, 8}, {11.1, 8}};
   EXPECT_NEAR(cost_->of(ends), length_of(ends), 1e-9);
   const Path corners{{1.5, 8}, {6, 8}, {7, 8}, {11, 8}};
-  EXPECT_NEAR(cost_->of(corners), length_of(corners) + 0.5 * GuideCostConfig{}.turn_price, 1e-9);
+  EXPECT_NEAR(cost_->of(corners), length_of(corners) + 0.5 * GuideCostConfig::kTurnPrice, 1e-9);
 }
 
 TEST_F(GuideCosts, stop_being_measured_when_the_allowance_is_spent) {

@@ -8,7 +8,6 @@ namespace navvi_sim::generate {
 void LayoutConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   const Range share{0.0, 1.0};
-  const Range speed{0.05, 5.0};
   visit(length, "length", Range{10.0, 300.0}, "m", "of the hall along the dock wall, inside");
   visit(width, "width", Range{10.0, 300.0}, "m", "of the hall away from the dock wall, inside");
   visit(rows, "rows", Range{0, 200}, "", "shelf rows, each of two racks back to back; 0: as fit");
