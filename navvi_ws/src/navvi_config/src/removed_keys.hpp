@@ -13,7 +13,8 @@ inline const std::set<std::string>& removed_keys() {
   static const std::set<std::string> all = [] {
     std::istringstream words(
         "absurd_factor attention/distracted attention/distractions attention/gives_up "
-        "attention/idle_patience attention/patience box_fill camera cloud_points cues/blocker_gap "
+        "attention/idle_patience attention/patience box_fill camera ceiling cloud_points "
+        "cues/blocker_gap "
         "cues/last_words cues/near/close cues/near/forget cues/near/hysteresis cues/patience "
         "cues/problem_repeat cues/recover cues/route/at_hand cues/route/coming "
         "cues/route/hysteresis_degrees cues/route/idle cues/route/in_the_way cues/route/long_leg "

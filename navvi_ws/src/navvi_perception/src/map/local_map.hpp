@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
+#include <navvi_types/headroom.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,9 +20,9 @@ struct MapConfig {
                              ///< prior map is kept
   double floor = 0.0;        ///< m, z of the floor in map
   double low = 0.04;         ///< m above the floor; what ends lower is floor
-  double high = 0.8;         ///< m above the floor; what begins higher does not matter
-  static constexpr double kHit = 0.7;   ///< probability that what a ray meets is there
-  static constexpr double kMiss = 0.4;  ///< probability that what a ray passes is there
+  double high = navvi_types::kHeadroom;  ///< m above the floor; what begins higher does not matter
+  static constexpr double kHit = 0.7;    ///< probability that what a ray meets is there
+  static constexpr double kMiss = 0.4;   ///< probability that what a ray passes is there
   /// m, what is seen so near a thing of the prior map belongs to it
   static constexpr double kSlack = 0.1;
   double forget = 60.0;  ///< s, in which a sure voxel is forgotten that is not seen again

@@ -20,9 +20,6 @@ constexpr double kMaxPushed = 3.0;  // m/s, the fastest a mover can shove the ro
 }  // namespace
 
 void WorldConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(ceiling, "ceiling", Range{0.5, 10.0}, "m",
-        "what begins higher above the floor is not near the robot");
   visit(wait_for_robot, "wait_for_robot", navvi_config::Any{}, "",
         "the traffic stands until the robot is first driven, so that it is the same however long "
         "a person waits before that");
@@ -145,8 +142,8 @@ navvi_types::Proximity World::proximity(double detection_radius) const {
       Eigen::Vector3d(now_.robot.position.x(), now_.robot.position.y(), floor_height_));
   base_link.rotate(Eigen::AngleAxisd(now_.robot.yaw, Eigen::Vector3d::UnitZ()));
   navvi_types::Proximity proximity{now_.stamp(), {}, detection_radius};
-  for (const physics::ThingGap& near : physics::things_near(
-           hull, detection_radius, floor_height_ + config_.ceiling, parts_->bodies, now_.movers)) {
+  for (const physics::ThingGap& near :
+       physics::things_near(hull, detection_radius, parts_->bodies, now_.movers)) {
     const Eigen::Vector3d nearest = base_link.inverse() * near.nearest;
     proximity.things.push_back({parts_->classes[near.thing], static_cast<std::uint32_t>(near.thing),
                                 near.gap, nearest.head<2>(), parts_->bodies.of(near.thing)->moves,

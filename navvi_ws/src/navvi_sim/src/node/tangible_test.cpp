@@ -34,7 +34,7 @@ void expect_agreement(const WorldDescription& world, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const auto near = [&](double x, double y, double radius) {
-    return physics::things_near({{x, y}, 0.01, under, top}, radius, top, bodies, {});
+    return physics::things_near({{x, y}, 0.01, under, top}, radius, bodies, {});
   };
   int cells = 0;
   for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {

@@ -3,31 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace navvi_sim::physics {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::max();
+constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kUpright = 1.0 - 1e-12;  // of an axis's z
-constexpr double kNoNearer = 1e-7;        // m, not worth a search
-constexpr int kAlternations = 2000;
-constexpr int kSections = 44;  // of a golden section search, which shrinks by 0.62 each time
+constexpr int kSides = 128;               // of the prism for a tilted cylinder
 
-/// Puts a horizontal and a vertical gap together: beside each other, above each other, or
-/// overlapping by the smaller of the two.
-double join(double aside, double above) {
-  return aside > 0.0 && above > 0.0 ? std::hypot(aside, above) : std::max(aside, above);
-}
-
-/// m, between the hull and heights from `bottom` to `top`; negative where they overlap.
-double gap_above(const Hull& hull, double bottom, double top) {
-  return std::max(bottom - hull.top, hull.bottom - top);
-}
-
-/// A height of both, or the one of the body that is nearest to the hull.
+/// A height of both.
 double shared_height(const Hull& hull, double bottom, double top) {
-  if (bottom > hull.top) return bottom;
-  if (top < hull.bottom) return top;
   return 0.5 * (std::max(bottom, hull.bottom) + std::min(top, hull.top));
 }
 
@@ -45,22 +31,19 @@ Gap gap_to_upright(const Hull& hull, const Eigen::Vector3d& half, const Eigen::I
   const Eigen::Vector2d away = hull.centre - pose.translation().head<2>();
   const Eigen::Vector2d x = pose.linear().col(ahead).head<2>();
   const Eigen::Vector2d y = pose.linear().col(aside).head<2>();
-  Eigen::Vector2d local(x.dot(away), y.dot(away));
+  const Eigen::Vector2d local(x.dot(away), y.dot(away));
   const Eigen::Vector2d reach(half[ahead], half[aside]);
   Eigen::Vector2d nearest = local.cwiseMax(-reach).cwiseMin(reach);
-  const double bottom = pose.translation().z() - half[up], top = pose.translation().z() + half[up];
-  const double above = gap_above(hull, bottom, top);
-  double beside;
+  double beside = (local - nearest).norm();
   if (nearest == local) {
     const Eigen::Vector2d depth = reach - local.cwiseAbs();
     const int axis = depth.x() < depth.y() ? 0 : 1;
-    beside = -depth[axis] - hull.radius;
-    if (above <= 0.0) nearest[axis] = local[axis] < 0.0 ? -reach[axis] : reach[axis];
-  } else {
-    beside = (local - nearest).norm() - hull.radius;
+    beside = -depth[axis];
+    nearest[axis] = local[axis] < 0.0 ? -reach[axis] : reach[axis];
   }
+  const double z = pose.translation().z();
   const Eigen::Vector2d at = pose.translation().head<2>() + nearest.x() * x + nearest.y() * y;
-  return {join(beside, above), {at.x(), at.y(), shared_height(hull, bottom, top)}};
+  return {beside - hull.radius, {at.x(), at.y(), shared_height(hull, z - half[up], z + half[up])}};
 }
 
 /// The point of the segment nearest to `point`, both seen from above.
@@ -98,7 +81,7 @@ struct Slice {
 
   /// Seen from above: the distance of `point`, and the point of the slice nearest to it.
   [[nodiscard]] std::pair<double, Eigen::Vector3d> from_above(const Eigen::Vector2d& point) const {
-    std::pair<double, Eigen::Vector3d> best{kFar, Eigen::Vector3d::Zero()};
+    std::pair<double, Eigen::Vector3d> best{kNever, Eigen::Vector3d::Zero()};
     bool left = count > 2, right = count > 2;
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d& a = corners[i];
@@ -116,81 +99,36 @@ struct Slice {
   }
 };
 
-template <typename Function>
-std::pair<double, double> least(Function value) {
-  constexpr double kGolden = 0.6180339887498949;
-  double low = 0.0, high = 1.0;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = value(a), at_b = value(b);
-  for (int i = 0; i < kSections; ++i) {
-    if (at_a <= at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      at_a = value(a = high - kGolden * (high - low));
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      at_b = value(b = low + kGolden * (high - low));
-    }
+/// To a convex solid, by the triangles of its faces.
+template <typename Holds>
+Gap gap_to_faces(const Hull& hull, const std::vector<std::array<Eigen::Vector3d, 3>>& faces,
+                 const Holds& holds) {
+  Gap best{kNever, Eigen::Vector3d::Zero()};
+  for (const auto& face : faces) {
+    const Gap gap = gap_to(hull, face);
+    if (gap.gap < best.gap) best = gap;
   }
-  std::pair<double, double> best{at_a, a};
-  for (const double end : {0.0, 1.0}) best = std::min(best, {value(end), end});
-  return best;
-}
-
-/// To a triangle of which no point within the hull's heights is nearest: that point is on an edge,
-/// along which the distance is convex; or it is the foot, within the triangle, of the point of the
-/// hull's end that lies farthest towards the triangle's plane.
-Gap gap_to_slanted(const Hull& hull, const std::array<Eigen::Vector3d, 3>& triangle, bool above) {
-  Gap best{kFar, Eigen::Vector3d::Zero()};
-  const auto take = [&](const Eigen::Vector3d& point) {
-    const double distance = hull.distance(point);
-    if (distance < best.gap) best = {distance, point};
-  };
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Vector3d& from = triangle[i];
-    const Eigen::Vector3d along = triangle[(i + 1) % 3] - from;
-    take(from +
-         least([&](double share) { return hull.distance(from + share * along); }).second * along);
-  }
-  const Eigen::Vector3d ab = triangle[1] - triangle[0], ac = triangle[2] - triangle[0];
-  const Eigen::Vector3d across = ab.cross(ac);
-  const double area = across.norm();
-  if (area < 1e-12) return best;
-  const Eigen::Vector3d normal = across / area;
-  Eigen::Vector3d end(hull.centre.x(), hull.centre.y(), above ? hull.top : hull.bottom);
-  const double side = normal.dot(end - triangle[0]) > 0.0 ? -1.0 : 1.0;
-  const double level = normal.head<2>().norm();
-  if (level > 1e-9) end.head<2>() += side * hull.radius / level * normal.head<2>();
-  const Eigen::Vector3d foot = end - normal.dot(end - triangle[0]) * normal;
-  const double u = normal.dot((foot - triangle[0]).cross(ac)) / area;
-  const double v = normal.dot(ab.cross(foot - triangle[0])) / area;
-  if (u >= 0.0 && v >= 0.0 && u + v <= 1.0) take(foot);
+  // Where the whole hull is within the solid, all faces are away from it.
+  if (best.gap > 0.0 &&
+      holds(Eigen::Vector3d(hull.centre.x(), hull.centre.y(), 0.5 * (hull.bottom + hull.top))))
+    best.gap = -hull.radius;
   return best;
 }
 
 }  // namespace
 
-double Hull::distance(const Eigen::Vector3d& point) const {
-  const double aside = (point.head<2>() - centre).norm() - radius;
-  const double above = std::max(point.z() - top, bottom - point.z());
-  return std::max(0.0, join(aside, above));
-}
-
 double Hull::bound(const Eigen::AlignedBox3d& box) const {
+  if (!meets(box.min().z(), box.max().z())) return kNever;
   const Eigen::Vector2d low = box.min().head<2>(), high = box.max().head<2>();
   const Eigen::Vector2d nearest = centre.cwiseMax(low).cwiseMin(high);
-  const double aside = (centre - nearest).norm() - radius;
-  return std::max(0.0, join(aside, gap_above(*this, box.min().z(), box.max().z())));
+  return std::max(0.0, (centre - nearest).norm() - radius);
 }
 
 Gap gap_to(const Hull& hull, const Box& box, const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d half = 0.5 * box.size;
   const int up = vertical_axis(pose);
   if (up >= 0) return gap_to_upright(hull, half, pose, up);
-  Gap best{kFar, Eigen::Vector3d::Zero()};
+  std::vector<std::array<Eigen::Vector3d, 3>> faces;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
       const auto corner = [&](double u, double v) -> Eigen::Vector3d {
@@ -200,100 +138,68 @@ Gap gap_to(const Hull& hull, const Box& box, const Eigen::Isometry3d& pose) {
         local[(axis + 2) % 3] = v * half[(axis + 2) % 3];
         return pose * local;
       };
-      for (const double half_face : {-1.0, 1.0}) {
-        const Gap gap =
-            gap_to(hull, {corner(-1, -1), corner(1, 1), corner(half_face, -half_face)}, best.gap);
-        if (gap.gap < best.gap) best = gap;
-      }
+      for (const double half_face : {-1.0, 1.0})
+        faces.push_back({corner(-1, -1), corner(1, 1), corner(half_face, -half_face)});
     }
-  // Where the whole hull is within the box, all faces are away from it.
-  const Eigen::Vector3d middle(hull.centre.x(), hull.centre.y(), 0.5 * (hull.bottom + hull.top));
-  const Eigen::Vector3d local = pose.inverse() * middle;
-  if (best.gap > 0.0 && ((half - local.cwiseAbs()).array() >= 0.0).all()) best.gap = -best.gap;
-  return best;
+  return gap_to_faces(hull, faces, [&](const Eigen::Vector3d& point) {
+    return ((half - (pose.inverse() * point).cwiseAbs()).array() >= 0.0).all();
+  });
 }
 
 Gap gap_to(const Hull& hull, const Cylinder& cylinder, const Eigen::Isometry3d& pose) {
   const double half = 0.5 * cylinder.length;
   if (std::abs(pose.linear()(2, 2)) > kUpright) {
-    const double bottom = pose.translation().z() - half, top = pose.translation().z() + half;
+    const double z = pose.translation().z();
     const Eigen::Vector2d away = hull.centre - pose.translation().head<2>();
     const double distance = away.norm();
-    const double above = gap_above(hull, bottom, top);
-    const bool over = above > 0.0 && distance < cylinder.radius;
     const Eigen::Vector2d out =
         distance > 1e-12 ? Eigen::Vector2d(away / distance) : Eigen::Vector2d::UnitX();
-    const Eigen::Vector2d at =
-        pose.translation().head<2>() + (over ? distance : cylinder.radius) * out;
-    return {join(distance - cylinder.radius - hull.radius, above),
-            {at.x(), at.y(), shared_height(hull, bottom, top)}};
+    const Eigen::Vector2d at = pose.translation().head<2>() + cylinder.radius * out;
+    return {distance - cylinder.radius - hull.radius,
+            {at.x(), at.y(), shared_height(hull, z - half, z + half)}};
   }
-  // From one body to the nearest point of the other, and back: this ends at the two nearest points
-  // (Cheney and Goldstein, 1959).
-  const Eigen::Isometry3d to_local = pose.inverse();
-  Eigen::Vector3d on_hull(hull.centre.x(), hull.centre.y(), 0.5 * (hull.bottom + hull.top));
-  Eigen::Vector3d on_cylinder = Eigen::Vector3d::Zero();
-  double gap = kFar;
-  for (int i = 0; i < kAlternations; ++i) {
-    Eigen::Vector3d local = to_local * on_hull;
-    const double radius = local.head<2>().norm();
-    if (radius > cylinder.radius) local.head<2>() *= cylinder.radius / radius;
-    local.z() = std::clamp(local.z(), -half, half);
-    on_cylinder = pose * local;
-    const Eigen::Vector2d away = on_cylinder.head<2>() - hull.centre;
-    const double distance = away.norm();
-    on_hull = on_cylinder;
-    if (distance > hull.radius) on_hull.head<2>() = hull.centre + away * (hull.radius / distance);
-    on_hull.z() = std::clamp(on_hull.z(), hull.bottom, hull.top);
-    const double now = (on_hull - on_cylinder).norm();
-    if (gap - now < 1e-9) break;
-    gap = now;
+  std::vector<std::array<Eigen::Vector3d, 3>> faces;
+  const auto corner = [&](int side, double end) -> Eigen::Vector3d {
+    const double turn = 2.0 * navvi_types::kPi * side / kSides;
+    return pose * Eigen::Vector3d(cylinder.radius * std::cos(turn),
+                                  cylinder.radius * std::sin(turn), end * half);
+  };
+  for (int side = 0; side < kSides; ++side) {
+    faces.push_back({corner(side, -1), corner(side, 1), corner(side + 1, -1)});
+    faces.push_back({corner(side, 1), corner(side + 1, -1), corner(side + 1, 1)});
+    for (const double end : {-1.0, 1.0})
+      faces.push_back(
+          {corner(side, end), corner(side + 1, end), pose * Eigen::Vector3d(0.0, 0.0, end * half)});
   }
-  return {(on_hull - on_cylinder).norm(), on_cylinder};
+  return gap_to_faces(hull, faces, [&](const Eigen::Vector3d& point) {
+    const Eigen::Vector3d local = pose.inverse() * point;
+    return local.head<2>().norm() <= cylinder.radius && std::abs(local.z()) <= half;
+  });
 }
 
 Gap gap_to(const Hull& hull, const Sphere& sphere, const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d centre = pose.translation();
-  const Eigen::Vector2d away = centre.head<2>() - hull.centre;
+  const double z = std::clamp(centre.z(), hull.bottom, hull.top);
+  const double off = centre.z() - z;
+  const double radius = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - off * off));
+  const Eigen::Vector2d away = hull.centre - centre.head<2>();
   const double distance = away.norm();
-  const double aside = distance - hull.radius;
-  const double above = std::max(centre.z() - hull.top, hull.bottom - centre.z());
-  Eigen::Vector3d on_hull = centre;
-  if (aside > 0.0) on_hull.head<2>() = hull.centre + away * (hull.radius / distance);
-  on_hull.z() = std::clamp(centre.z(), hull.bottom, hull.top);
-  const Eigen::Vector3d towards = on_hull - centre;
-  const double reach = towards.norm();
-  const Eigen::Vector3d nearest =
-      reach > 1e-12 ? Eigen::Vector3d(centre + towards * (sphere.radius / reach)) : centre;
-  return {join(aside, above) - sphere.radius, nearest};
+  const Eigen::Vector2d at =
+      centre.head<2>() + (distance > 1e-12 ? Eigen::Vector2d(away * (radius / distance))
+                                           : Eigen::Vector2d(radius, 0.0));
+  return {distance - radius - hull.radius, {at.x(), at.y(), z}};
 }
 
-Gap gap_to(const Hull& hull, const std::array<Eigen::Vector3d, 3>& triangle, double limit) {
-  Slice whole;
-  for (const Eigen::Vector3d& corner : triangle) whole.add(corner);
+Gap gap_to(const Hull& hull, const std::array<Eigen::Vector3d, 3>& triangle) {
   const double low = std::min({triangle[0].z(), triangle[1].z(), triangle[2].z()});
   const double high = std::max({triangle[0].z(), triangle[1].z(), triangle[2].z()});
-  Gap best{kFar, Eigen::Vector3d::Zero()};
-  if (low <= hull.top && high >= hull.bottom) {
-    Slice beside = whole;
-    if (low < hull.bottom) beside = beside.cut(hull.bottom, true);
-    if (high > hull.top) beside = beside.cut(hull.top, false);
-    const auto [distance, nearest] = beside.from_above(hull.centre);
-    const double aside = distance - hull.radius;
-    best = {aside > 0.0 ? aside : std::max(aside, gap_above(hull, low, high)), nearest};
-    if (best.gap <= 0.0) return best;
-  }
-  for (const bool above : {true, false}) {
-    if (above ? high <= hull.top : low >= hull.bottom) continue;
-    const Slice part = whole.cut(above ? hull.top : hull.bottom, above);
-    if (part.count == 0) continue;
-    const double height = above ? std::max(0.0, low - hull.top) : std::max(0.0, hull.bottom - high);
-    const double aside = std::max(0.0, part.from_above(hull.centre).first - hull.radius);
-    if (std::hypot(aside, height) >= std::min(best.gap, limit) - kNoNearer) continue;
-    const Gap found = gap_to_slanted(hull, triangle, above);
-    if (found.gap < best.gap) best = found;
-  }
-  return best;
+  if (!hull.meets(low, high)) return {kNever, Eigen::Vector3d::Zero()};
+  Slice slice;
+  for (const Eigen::Vector3d& corner : triangle) slice.add(corner);
+  if (low < hull.bottom) slice = slice.cut(hull.bottom, true);
+  if (high > hull.top) slice = slice.cut(hull.top, false);
+  const auto [distance, nearest] = slice.from_above(hull.centre);
+  return {distance - hull.radius, nearest};
 }
 
 }  // namespace navvi_sim::physics

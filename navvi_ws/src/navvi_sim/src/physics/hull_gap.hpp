@@ -17,25 +17,24 @@ struct Hull {
   double bottom;           ///< m, z
   double top;              ///< m, z
 
-  /// m, from the hull to the point; 0 within it.
-  [[nodiscard]] double distance(const Eigen::Vector3d& point) const;
-  /// m, no more than from the hull to anything in the box.
+  /// Whether anything between two heights can be met: what begins at the hull's top is above it.
+  [[nodiscard]] bool meets(double low, double high) const { return high >= bottom && low < top; }
+  /// m, no more than the gap to anything in the box; infinite if nothing in it can be met.
   [[nodiscard]] double bound(const Eigen::AlignedBox3d& box) const;
 };
 
-/// How near a surface is.
+/// How near a surface is, seen from above.
 struct Gap {
-  double gap;               ///< m; where the two overlap, 0 or less: by how much to part them
+  double gap;               ///< m, level; where the two overlap, 0 or less; infinite: never met
   Eigen::Vector3d nearest;  ///< m, the surface's point nearest to the hull
 };
 
-/// From the hull to a solid at `pose`, exact: in closed form to spheres and to boxes and cylinders
-/// that stand upright. The gap to a tilted cylinder that overlaps the hull is 0.
+/// From the hull to what of a solid at `pose` lies at the hull's heights, since a robot on a level
+/// floor meets nothing else. Exact, but for a tilted cylinder, which counts as a prism of 128
+/// sides.
 [[nodiscard]] Gap gap_to(const Hull& hull, const Box& box, const Eigen::Isometry3d& pose);
 [[nodiscard]] Gap gap_to(const Hull& hull, const Cylinder& cylinder, const Eigen::Isometry3d& pose);
 [[nodiscard]] Gap gap_to(const Hull& hull, const Sphere& sphere, const Eigen::Isometry3d& pose);
-/// \param limit  m, a larger gap than this may come out too large
-[[nodiscard]] Gap gap_to(const Hull& hull, const std::array<Eigen::Vector3d, 3>& triangle,
-                         double limit);
+[[nodiscard]] Gap gap_to(const Hull& hull, const std::array<Eigen::Vector3d, 3>& triangle);
 
 }  // namespace navvi_sim::physics

@@ -11,12 +11,11 @@ namespace {
 /// Finds the point of a body that is nearest to the hull.
 class NearestPoint {
  public:
-  NearestPoint(const Hull& hull, double radius, double ceiling)
-      : hull_(hull), radius_(radius), ceiling_(ceiling) {}
+  NearestPoint(const Hull& hull, double radius) : hull_(hull), radius_(radius) {}
 
   /// \param pose  of the part, in map
   void consider(const Part& part, const Eigen::Isometry3d& pose) {
-    if (!matters(part.bounds)) return;
+    if (!hull_.meets(part.bounds.min().z(), part.bounds.max().z())) return;
     if (const auto* box = std::get_if<Box>(&part.geometry))
       take(gap_to(hull_, *box, pose));
     else if (const auto* cylinder = std::get_if<Cylinder>(&part.geometry))
@@ -32,10 +31,6 @@ class NearestPoint {
   [[nodiscard]] const std::optional<Gap>& found() const { return found_; }
 
  private:
-  [[nodiscard]] bool matters(const Eigen::AlignedBox3d& bounds) const {
-    return bounds.max().z() >= hull_.bottom && bounds.min().z() <= ceiling_;
-  }
-
   void take(const Gap& gap) {
     if (!(gap.gap > this->gap())) found_ = gap;
   }
@@ -63,21 +58,19 @@ class NearestPoint {
             corners[i] = pose * mesh.vertices[mesh.triangles[index][i]].cast<double>();
             bounds.extend(corners[i]);
           }
-          if (matters(bounds) && hull_.bound(bounds) <= std::max(0.0, gap()))
-            take(gap_to(hull_, corners, gap()));
+          if (hull_.bound(bounds) <= std::max(0.0, gap())) take(gap_to(hull_, corners));
         });
   }
 
   const Hull& hull_;
   double radius_;
-  double ceiling_;
   std::optional<Gap> found_;
 };
 
 }  // namespace
 
-std::vector<ThingGap> things_near(const Hull& hull, double radius, double ceiling,
-                                  const Bodies& bodies, const std::vector<MoverState>& movers) {
+std::vector<ThingGap> things_near(const Hull& hull, double radius, const Bodies& bodies,
+                                  const std::vector<MoverState>& movers) {
   std::vector<ThingGap> near;
   const auto add = [&](const Body& body, const NearestPoint& nearest) {
     if (const auto found = nearest.found()) near.push_back({*found, body.thing});
@@ -87,7 +80,7 @@ std::vector<ThingGap> things_near(const Hull& hull, double radius, double ceilin
                        [&](std::uint32_t index) {
                          const Body& body = bodies.all()[bodies.standing()[index]];
                          if (hull.bound(body.bounds) > radius) return;
-                         NearestPoint nearest(hull, radius, ceiling);
+                         NearestPoint nearest(hull, radius);
                          for (const Part& part : body.parts)
                            if (hull.bound(part.bounds) <= std::max(0.0, nearest.gap()))
                              nearest.consider(part, part.pose);
@@ -99,7 +92,7 @@ std::vector<ThingGap> things_near(const Hull& hull, double radius, double ceilin
     if (away.squaredNorm() > reach * reach) continue;
     const Body* body = bodies.of(mover.thing.id);
     if (!body) continue;
-    NearestPoint nearest(hull, radius, ceiling);
+    NearestPoint nearest(hull, radius);
     for (const Part& part : body->parts) nearest.consider(part, mover.pose * part.pose);
     add(*body, nearest);
   }

@@ -16,10 +16,9 @@ struct ThingGap : Gap {
 };
 
 /// The nearest surface point of each thing whose gap to the robot's hull is at most `radius` m,
-/// nearest first. Shapes and triangles wholly below the hull, or whose underside is above
-/// `ceiling`, m, z in map, are left out. The time taken follows what is near.
+/// nearest first. The time taken follows what is near.
 /// \param movers  everything that moves, where it is now
-[[nodiscard]] std::vector<ThingGap> things_near(const Hull& hull, double radius, double ceiling,
+[[nodiscard]] std::vector<ThingGap> things_near(const Hull& hull, double radius,
                                                 const Bodies& bodies,
                                                 const std::vector<MoverState>& movers);
 

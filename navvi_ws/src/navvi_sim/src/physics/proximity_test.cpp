@@ -26,7 +26,7 @@ std::vector<ThingGap> near(const std::vector<Thing>& things, double radius = 5.0
   WorldDescription world;
   world.things = things;
   const RobotConfig config;
-  return things_near({robot, config.radius, config.clearance, config.height}, radius, 2.0,
+  return things_near({robot, config.radius, config.clearance, config.height}, radius,
                      Bodies(world, config.clearance), {});
 }
 
@@ -75,8 +75,8 @@ TEST(Proximity, of_a_cylinder_and_a_sphere) {
 
 TEST(Proximity, of_a_mesh_equals_that_of_the_box_it_draws) {
   const auto mesh = std::make_shared<const Mesh>(cube(0.5));
-  for (const Eigen::Vector3d& centre :
-       {Eigen::Vector3d(2, 0, 0.5), Eigen::Vector3d(-1.3, 2.1, 0.5), Eigen::Vector3d(2, 1, 1.2)}) {
+  for (const Eigen::Vector3d& centre : {Eigen::Vector3d(2, 0, 0.5), Eigen::Vector3d(-1.3, 2.1, 0.5),
+                                        Eigen::Vector3d(2, 1, 1.2), Eigen::Vector3d(2, 1, 0.95)}) {
     const auto of_mesh = near({thing_of(mesh, centre, 0.4)}).at(0);
     const auto of_box = near({thing_of(Box{{1, 1, 1}}, centre, 0.4)}).at(0);
     EXPECT_NEAR(of_mesh.gap, of_box.gap, kExact);
@@ -84,10 +84,16 @@ TEST(Proximity, of_a_mesh_equals_that_of_the_box_it_draws) {
   }
 }
 
-TEST(Proximity, of_what_stands_higher_is_measured_in_three_dimensions) {
-  const auto above = near({thing_of(Box{{1, 1, 0.4}}, {1.85, 0, 1.7})}).at(0);
-  EXPECT_NEAR(above.gap, std::hypot(1.35 - 0.35, 1.5 - 0.5), kExact);
-  EXPECT_TRUE(near({thing_of(Box{{1, 1, 0.4}}, {1.85, 0, 2.5})}).empty()) << "above the ceiling";
+TEST(Proximity, of_what_hangs_is_level_if_it_is_lower_than_the_headroom_and_else_there_is_none) {
+  const auto below = near({thing_of(Box{{1, 1, 0.4}}, {1.85, 0, 0.98})}).at(0);
+  EXPECT_NEAR(below.gap, 1.35 - 0.35, kExact);
+  EXPECT_TRUE(near({thing_of(Box{{1, 1, 0.4}}, {1.85, 0, 1.0})}).empty());
+  // Of a ball and of a slanted plate only what is as low as the robot counts.
+  const auto ball = near({thing_of(Sphere{1.0}, {3, 0, 1.4})}).at(0);
+  EXPECT_NEAR(ball.gap, 3.0 - 0.8 - 0.35, kExact);
+  Thing plate = thing_of(Box{{4, 1, 1e-6}}, {4, 0, 0.8});
+  plate.pose.rotate(Eigen::AngleAxisd(std::atan(0.5), Eigen::Vector3d::UnitY()));
+  EXPECT_NEAR(near({plate}).at(0).gap, 4.0 - 0.35, kExact);
 }
 
 TEST(Proximity, passes_over_floors_and_what_is_driven_over) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <navvi_types/headroom.hpp>
 #include <utility>
 
 #include "description/footprint.hpp"
@@ -12,8 +13,9 @@
 namespace navvi_sim::picture {
 namespace {
 
+using navvi_types::kHeadroom;
+
 constexpr int kRimPoints = 24;
-constexpr double kCut = 1.2;          // m above the floor, the headroom of scenarios
 constexpr double kDrivenOver = 0.05;  // m above the floor
 
 class Tracer {
@@ -162,7 +164,7 @@ class CutSurface {
 /// What of a mesh the robot drives over, what stands in its way, and what hangs.
 std::vector<Outline> mesh_outlines(const Mesh& mesh, const Eigen::Isometry3d& pose, double floor) {
   Outline low, body, high;
-  CutSurface driven_over(low, floor + kCut), standing(body, floor + kCut);
+  CutSurface driven_over(low, floor + kHeadroom), standing(body, floor + kHeadroom);
   high.bottom = std::numeric_limits<double>::infinity();
   high.top = -high.bottom;
   low.look = ThingClass::floor;
@@ -175,7 +177,7 @@ std::vector<Outline> mesh_outlines(const Mesh& mesh, const Eigen::Isometry3d& po
       corners[i] = pose * mesh.vertices[indices[i]].cast<double>();
       heights.extend(corners[i].tail<1>());
     }
-    if (heights.min().x() >= floor + kCut) {
+    if (heights.min().x() >= floor + kHeadroom) {
       for (const Eigen::Vector3d& corner : corners) hanging.emplace_back(corner.head<2>());
       high.bottom = std::min(high.bottom, heights.min().x());
       high.top = std::max(high.top, heights.max().x());
@@ -213,7 +215,7 @@ std::vector<Outline> outlines_of(const Thing& thing, double floor) {
         if (part.look != ThingClass::floor) part.look = standing_look(thing, shape);
     } else {
       parts.push_back(std::visit(Tracer(thing.pose, shape), shape.geometry));
-      parts.back().hangs = parts.back().bottom >= floor + kCut;
+      parts.back().hangs = parts.back().bottom >= floor + kHeadroom;
       parts.back().look =
           parts.back().top < floor + kDrivenOver ? ThingClass::floor : standing_look(thing, shape);
     }

@@ -43,7 +43,7 @@ TEST_F(Repetition, takesARecordOfBeforeWithItsRetiredParameters) {
   RecordedSession recorded = drive_ahead(config_);
   recorded.parameters +=
       "box_fill: 0.6\nforklift_speed: 1\npallet_robot_speed: 0.7\nworker_speed: 0.8\n"
-      "movers: {yield: true}\ndetection_radius: 5\n";
+      "movers: {yield: true}\nceiling: 2\ndetection_radius: 5\n";
   EXPECT_EQ(first_difference(recorded), "");
 }
 

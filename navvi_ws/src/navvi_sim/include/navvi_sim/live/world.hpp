@@ -16,7 +16,6 @@ namespace navvi_sim::live {
 
 struct WorldConfig {
   double step = 0.01;           ///< s, fixed time step
-  double ceiling = 2.0;         ///< m above the floor: what begins higher is not near the robot
   bool wait_for_robot = false;  ///< stand still, while the clock runs, until it is first driven
   physics::RobotConfig robot;
   traffic::MoversConfig movers;

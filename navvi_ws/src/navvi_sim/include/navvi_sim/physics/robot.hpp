@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <navvi_config/field.hpp>
+#include <navvi_types/headroom.hpp>
 #include <navvi_types/motion.hpp>
 
 namespace navvi_sim::physics {
@@ -34,15 +35,17 @@ struct ImperfectionsConfig {
 
 /// A differential drive robot: a vertical cylinder, and what its wheels can do (R-SIM-5).
 struct RobotConfig {
-  double radius = 0.35;        ///< m
-  double height = 0.5;         ///< m, top above the floor
+  double radius = 0.35;  ///< m
+  /// m, top above the floor, of its load, too: less than the headroom by what the voxels of a map
+  /// and the margin of a contact come to
+  double height = navvi_types::kHeadroom - 0.005;
   /// m, underside of the hull above the floor; what is lower is driven over
   double clearance = 0.05;
-  double mass = 50.0;          ///< kg, mass of the robot
-  double max_speed = 0.9;      ///< m/s, forward and back
-  double acceleration = 1.0;   ///< m/s^2, towards a larger speed
-  double deceleration = 2.0;   ///< m/s^2, towards a smaller speed
-  double max_turn_rate = 1.5;  ///< rad/s, largest rate of turn
+  double mass = 50.0;                 ///< kg, mass of the robot
+  double max_speed = 0.9;             ///< m/s, forward and back
+  double acceleration = 1.0;          ///< m/s^2, towards a larger speed
+  double deceleration = 2.0;          ///< m/s^2, towards a smaller speed
+  double max_turn_rate = 1.5;         ///< rad/s, largest rate of turn
   double angular_acceleration = 4.0;  ///< rad/s^2, of turning, both ways
   double brake = 30.0;                ///< m/s^2, deceleration when commands fail to come
   double angular_brake = 60.0;        ///< rad/s^2, angular deceleration when commands fail to come

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <navvi_types/cue_kind.hpp>
+
+#include "navvi_people/loop/closed_loop.hpp"
+
+namespace navvi_people::loop {
+namespace {
+
+/// A thing of one box that stands still. \param at  m, its centre: x y z
+std::string box(const std::string& name, const std::string& size, const std::string& at) {
+  return "<model name='" + name + "'><static>true</static><pose>" + at +
+         " 0 0 0</pose><link name='l'><collision name='c'><geometry><box><size>" + size +
+         "</size></box></geometry></collision></link></model>\n";
+}
+
+/// A trial in a room in which a lamp hangs on the straight way.
+struct Trial {
+  bool under = false;  ///< the way led under the lamp
+  int stops = 0;       ///< that were asked for
+  int contacts = 0;
+  double left = 0.0;  ///< m, to the goal
+};
+
+Trial drive(double bottom, const std::string& sensing) {
+  std::string folder = (std::filesystem::temp_directory_path() / "navvi_lamp_XXXXXX").string();
+  ClosedLoopConfig config;
+  config.sim.world = std::string(mkdtemp(folder.data())) + "/lamp.world";
+  std::ofstream(config.sim.world) << "<sdf version='1.7'><world name='w'>\n"
+                                  << box("ground_plane", "12 6 0.1", "0 0 -0.05")
+                                  << box("lamp", "0.8 0.8 0.4",
+                                         "0 0 " + std::to_string(bottom + 0.2))
+                                  << "</world></sdf>";
+  config.sim.start = "-3,0,0";
+  config.sim.goal = "3,0";
+  config.sim.sensing = sensing;
+  ClosedLoop loop(config, NAVVI_PHRASES);
+  std::filesystem::remove_all(folder);
+  Trial trial;
+  while (loop.time() < 40.0 && loop.step()) {
+    trial.contacts += static_cast<int>(loop.told().contacts.size());
+    for (const navvi_msgs::Cue& cue : loop.told().cues)
+      trial.stops += cue.stage == navvi_msgs::Cue::STARTED && cue.kind == "obstacle_stop" ? 1 : 0;
+    const Eigen::Vector2d at = loop.session().world().now().robot.position;
+    trial.under = trial.under || at.cwiseAbs().maxCoeff() < 0.7;
+    trial.left = (at - loop.scenario().goal).norm();
+    if (trial.left < 1.0) break;
+  }
+  return trial;
+}
+
+TEST(Headroom, is_one_for_map_hull_and_what_is_near_so_no_path_leads_under_what_is_stopped_for) {
+  for (int i = 0; i <= 30; ++i) {
+    const double bottom = 0.1 * i;
+    const Trial trial = drive(bottom, "truth");
+    SCOPED_TRACE("a lamp at " + std::to_string(bottom) + " m");
+    EXPECT_EQ(trial.under, i >= 8);
+    EXPECT_FALSE(trial.under && trial.stops > 0) << trial.stops << " stops";
+    EXPECT_EQ(trial.contacts, 0);
+    EXPECT_LT(trial.left, 1.0);
+  }
+}
+
+TEST(Headroom, is_the_same_to_a_robots_own_sensors) {
+  for (const double bottom : {0.4, 0.7, 0.9, 1.2, 2.0}) {
+    const Trial trial = drive(bottom, "robot");
+    SCOPED_TRACE("a lamp at " + std::to_string(bottom) + " m");
+    EXPECT_EQ(trial.under, bottom >= 0.8);
+    EXPECT_FALSE(trial.under && trial.stops > 0) << trial.stops << " stops";
+    EXPECT_EQ(trial.contacts, 0);
+    EXPECT_LT(trial.left, 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace navvi_people::loop
