@@ -56,8 +56,8 @@ Course::Course(Hall hall, std::uint32_t seed)
       detour(columns, config.mesh.robot_radius, config.mesh.robot_height),
       detour_query(detour.mesh()),
       detours_mesh(mesh::join(grid(detour), tree.getResolution())) {
-  ours.set_map(voxels_of(tree));
-  carved.set_map(voxels_of(tree));
+  ours.set_map(map::voxels_of(tree));
+  carved.set_map(map::voxels_of(tree));
   std::mt19937 random(seed);
   for (int i = 0; i < kQueries; ++i) {
     const Point start = somewhere(random);

@@ -14,13 +14,13 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <navvi_floor/octomap_reader.hpp>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "contestant.hpp"
-#include "map/octomap_reader.hpp"
 #include "medians.hpp"
 #include "octomap_tree.hpp"
 #include "plan/worker.hpp"
@@ -369,7 +369,7 @@ void weigh(const Course& c) {
   const double area = c.floor_area();
   const std::size_t before = bytes_in_use();
   plan::Planner planner(c.config);
-  planner.set_map(voxels_of(c.tree));
+  planner.set_map(map::voxels_of(c.tree));
   const std::size_t with_mesh = bytes_in_use();
   const mesh::Mesh copy = planner.nav_mesh().mesh();
   const std::size_t with_copy = bytes_in_use();
@@ -392,7 +392,7 @@ void ask_first(Course& c) {
   for (std::size_t i = 0; i < kBakes; ++i) {
     const Query& query = c.queries[i];
     plan::Planner planner(c.config);
-    planner.set_map(voxels_of(c.tree));
+    planner.set_map(map::voxels_of(c.tree));
     const mesh::Mesh& mesh = planner.nav_mesh().mesh();
     search::Search search(search::SearchMethod::exact);
     const auto from = mesh.locate(query.start, Course::kNear);

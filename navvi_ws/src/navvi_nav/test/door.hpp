@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <navvi_floor/resample.hpp>
 #include <random>
 #include <vector>
 
 #include "bake/map_bake.hpp"
-#include "map/resample.hpp"
 
 namespace navvi_nav {
 

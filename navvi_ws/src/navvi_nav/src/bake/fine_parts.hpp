@@ -1,7 +1,8 @@
 #pragma once
 
+#include <navvi_floor/floor.hpp>
+
 #include "bake/tile_bake.hpp"
-#include "map/floor.hpp"
 
 namespace navvi_nav::bake {
 

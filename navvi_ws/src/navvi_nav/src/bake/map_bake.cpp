@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_floor/parallel.hpp>
 #include <string>
 #include <utility>
 
 #include "bake/fine_parts.hpp"
 #include "bake/merge_convex.hpp"
-#include "map/parallel.hpp"
 
 namespace navvi_nav::bake {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <map>
 #include <memory>
+#include <navvi_floor/floor.hpp>
+#include <navvi_floor/survey.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bake/tile_bake.hpp"
-#include "map/floor.hpp"
-#include "map/survey.hpp"
 
 namespace navvi_nav::bake {
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <navvi_floor/floor.hpp>
 #include <vector>
 
-#include "map/floor.hpp"
 #include "mesh/mesh.hpp"
 
 namespace navvi_nav::bake {

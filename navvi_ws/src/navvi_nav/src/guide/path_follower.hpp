@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <navvi_config/field.hpp>
+#include <navvi_floor/floor.hpp>
 #include <navvi_types/guidance.hpp>
 
 #include "guide/cylinders.hpp"
-#include "map/floor.hpp"
 
 namespace navvi_nav::guide {
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <navvi_floor/floor.hpp>
 #include <optional>
 
-#include "map/floor.hpp"
 #include "mesh/mesh.hpp"
 
 namespace navvi_nav::plan {

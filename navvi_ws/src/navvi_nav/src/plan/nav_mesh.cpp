@@ -16,7 +16,7 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(robot_radius, "robot_radius", Range{0.05, 2.0}, "m", "radius of the robot's hull");
   visit(robot_height, "robot_height", Range{0.1, 5.0}, "m",
-        "a thing that hangs higher over the floor does not block");
+        "of the robot with its load: a thing that hangs higher over the floor does not block");
   visit(cell_size, "cell_size", Range{0.0, 1.0}, "m",
         "edge of a cell of the mesh; 0: the map's voxel, or the part of it that erosion needs");
   visit(climb, "climb", Range{0.0, 0.5}, "m",

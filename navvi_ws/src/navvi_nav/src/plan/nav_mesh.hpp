@@ -3,15 +3,16 @@
 #include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
+#include <navvi_floor/floor.hpp>
+#include <navvi_floor/map_survey.hpp>
+#include <navvi_floor/occupancy_grid.hpp>
+#include <navvi_types/headroom.hpp>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "bake/map_bake.hpp"
-#include "map/floor.hpp"
-#include "map/map_survey.hpp"
-#include "map/occupancy_grid.hpp"
 #include "mesh/cut_mesh.hpp"
 #include "mesh/mesh.hpp"
 #include "plan/carving.hpp"
@@ -21,7 +22,7 @@ namespace navvi_nav::plan {
 
 struct NavMeshConfig {
   double robot_radius = 0.35;
-  double robot_height = 0.8;
+  double robot_height = navvi_types::kHeadroom;
   double cell_size = 0.0;
   double climb = 0.04;
   double floor_height = map::kAnyFloor;

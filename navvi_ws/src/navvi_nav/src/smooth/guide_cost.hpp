@@ -2,10 +2,10 @@
 
 #include <limits>
 #include <navvi_config/field.hpp>
+#include <navvi_floor/floor.hpp>
 #include <optional>
 #include <vector>
 
-#include "map/floor.hpp"
 #include "mesh/mesh.hpp"
 
 namespace navvi_nav::smooth {

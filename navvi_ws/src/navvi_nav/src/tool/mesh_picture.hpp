@@ -1,10 +1,10 @@
 #pragma once
 
+#include <navvi_floor/floor.hpp>
 #include <string>
 #include <vector>
 
 #include "geometry.hpp"
-#include "map/floor.hpp"
 #include "mesh/mesh.hpp"
 
 namespace navvi_nav::tool {

@@ -10,6 +10,7 @@
 #include <map>
 #include <navvi_config/reader.hpp>
 #include <navvi_files/json.hpp>
+#include <navvi_floor/map_file.hpp>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -18,7 +19,6 @@
 #include <vector>
 
 #include "guide/navigator.hpp"
-#include "map/map_file.hpp"
 #include "smooth/turns.hpp"
 #include "tool/mesh_picture.hpp"
 

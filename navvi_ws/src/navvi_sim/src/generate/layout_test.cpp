@@ -13,7 +13,7 @@
 #include "navvi_sim/live/world.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
-#include "scenario/floor_grid.hpp"
+#include "scenario/floor_ways.hpp"
 #include "traffic/lanes.hpp"
 #include "traffic/traffic.hpp"
 
@@ -295,10 +295,10 @@ TEST(Layouts, of_every_preset_cut_no_place_off_where_the_robot_has_room) {
       const occupancy::OccupancyMap map = occupancy::occupancy_of(
           layout(known.name, known.config, seed), occupancy::OccupancyConfig{0.1});
       constexpr double kRoom = 0.5;  // m: the robot's radius and a margin
-      const scenario::FloorGrid grid(map, 0.0, 1.2, kRoom);
-      const scenario::FloorGrid::Cells free = grid.cells_clear_by(kRoom);
+      const scenario::FloorWays grid(scenario::floor_of(map, 0.0, navvi_types::kHeadroom, kRoom));
+      const scenario::FloorWays::Cells free = grid.cells_clear_by(kRoom);
       ASSERT_FALSE(free.empty());
-      const scenario::FloorGrid::Ways ways = grid.ways_from(free.front(), kRoom);
+      const scenario::FloorWays::Ways ways = grid.ways_from(free.front(), kRoom);
       for (const std::size_t cell : free)
         ASSERT_TRUE(std::isfinite(ways.length[cell]))
             << grid.centre(cell).transpose() << " in " << known.name << ' ' << seed;
@@ -515,7 +515,7 @@ TEST(Layouts, of_every_preset_name_their_places_and_a_robot_can_stand_in_each) {
     const WorldDescription world = layout(known.name, known.config, 3);
     const occupancy::OccupancyMap map =
         occupancy::occupancy_of(world, occupancy::OccupancyConfig{0.1});
-    const scenario::FloorGrid grid(map, 0.0, 1.2, 0.5);
+    const scenario::FloorWays grid(scenario::floor_of(map, 0.0, navvi_types::kHeadroom, 0.5));
     const std::vector<Place> places = scenario::free_places_of(world, map, {});
     std::map<Place::Kind, int> count;
     for (const Place& place : places) {

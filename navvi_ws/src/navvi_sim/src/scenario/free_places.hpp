@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <vector>
 
 #include "description/footprint.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
-#include "scenario/closed_blocks.hpp"
-#include "scenario/floor_grid.hpp"
+#include "scenario/floor_ways.hpp"
 
 namespace navvi_sim::scenario {
 
@@ -18,33 +18,36 @@ namespace navvi_sim::scenario {
 /// False for all places if nothing stands.
 [[nodiscard]] bool lies_in(const Polygon& hull, const Eigen::Vector2d& place);
 
-/// Where on a floor a route may start or end, as cells of a grid of the floor.
+/// Where on a floor a route may start or end, as cells.
 class FreePlaces {
  public:
-  using Places = FloorGrid::Cells;
+  using Places = FloorWays::Cells;
 
   /// \throws WorldError if there is no place as clear as `config` says, or as swept_ground
-  FreePlaces(const WorldDescription& world, const FloorGrid& grid, const ScenarioConfig& config);
+  FreePlaces(const WorldDescription& world, const FloorWays& ways, const ScenarioConfig& config);
 
-  /// Clear of everything that stands still, in no closed block, inside the hull of what stands, and
-  /// in rooms, each where there are such; at least one.
+  /// Clear of everything that stands still, on the main part of the floor, inside the hull of what
+  /// stands, and in rooms, each where there are such some m apart; at least one.
   [[nodiscard]] const Places& all() const { return all_; }
   /// Those of them off the ground that movers sweep.
   [[nodiscard]] const Places& quiet() const { return quiet_; }
   /// Around everything that stands, as hull_of_what_stands().
   [[nodiscard]] const Polygon& hull() const { return hull_; }
-  [[nodiscard]] const ClosedBlocks& blocks() const { return blocks_; }
   /// Those of `places` that keep their distance from where movers begin; all of them if none does.
   [[nodiscard]] Places away_from_movers(const Places& places) const;
 
  private:
+  [[nodiscard]] std::uint32_t main_part(const std::vector<std::uint32_t>& part,
+                                        const std::vector<std::uint8_t>& indoors) const;
+  /// Keeps only those that meet the condition, if they are more than this share and do not lie
+  /// closer together than a trial needs.
+  void keep(const std::function<bool(std::size_t)>& condition, double share);
   void find_quiet();
 
   const WorldDescription& world_;
-  const FloorGrid& grid_;
+  const FloorWays& ways_;
   const ScenarioConfig& config_;
   Polygon hull_;
-  ClosedBlocks blocks_;
   Places all_, quiet_;
 };
 

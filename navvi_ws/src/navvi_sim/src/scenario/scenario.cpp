@@ -15,12 +15,14 @@ namespace {
 constexpr int kAttempts = 20;
 constexpr int kDraws = 50;            // of one end of a route, the other fixed, until its turns fit
 constexpr double kUsualRoute = 10.0;  // m
+constexpr double kLeastRoute = 5.0;   // m; less is hardly a trial
+constexpr double kNoRoute = 1.0;      // m; a robot has arrived there as it starts
 constexpr double kLeg = 1.0;          // m, least length of a leg that counts for turns
 constexpr double kTurn = navvi_types::radians(30.0);
 constexpr double kSpot = 0.01;      // m
 constexpr double kLookAhead = 2.0;  // m along the route, to which a drawn start looks
 
-double length(const FloorGrid::Ways& ways, std::size_t cell) {
+double length(const FloorWays::Ways& ways, std::size_t cell) {
   return static_cast<double>(ways.length[cell]);
 }
 
@@ -62,8 +64,8 @@ class ScenarioSampler {
                   const ScenarioConfig& config, std::uint64_t seed)
       : world_(world),
         config_(config),
-        grid_(map, world.floor_height, config.robot_height, clear()),
-        places_(world, grid_, config),
+        ways_(floor_of(map, world.floor_height, config.robot_height, clear())),
+        places_(world, ways_, config),
         random_(seed) {}
 
   [[nodiscard]] StartAndGoal with_start(const Pose2& start,
@@ -80,18 +82,18 @@ class ScenarioSampler {
   [[nodiscard]] std::optional<StartAndGoal> between(const Places& places);
   /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
   /// is asked for, a small world has some at 0.8 of the longest way to a free place.
-  [[nodiscard]] Places ends_of(const FloorGrid::Ways& ways, const Places& places);
+  [[nodiscard]] Places ends_of(const FloorWays::Ways& ways, const Places& places);
   /// One of `places` to which a way leads as asked for; kNone if none was found.
-  [[nodiscard]] std::size_t try_draw(const FloorGrid::Ways& ways, const Places& places,
+  [[nodiscard]] std::size_t try_draw(const FloorWays::Ways& ways, const Places& places,
                                      double least);
   /// \param choices  of places, the better ones first
-  [[nodiscard]] std::size_t draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
+  [[nodiscard]] std::size_t draw(const FloorWays::Ways& ways, const std::vector<Places>& choices,
                                  const std::string& what, double least);
 
   /// The cell of a start that was given. \throws WorldError if no robot can stand there
   [[nodiscard]] std::size_t checked(const Pose2& start) const;
   /// The pose in `cell` that looks along the way back to where the ways begin.
-  [[nodiscard]] Pose2 looking_back(const FloorGrid::Ways& ways, std::size_t cell) const;
+  [[nodiscard]] Pose2 looking_back(const FloorWays::Ways& ways, std::size_t cell) const;
   /// What was asked of the route, for a sentence.
   [[nodiscard]] std::string asked_for() const;
   [[nodiscard]] bool asks_for_turns() const {
@@ -101,15 +103,17 @@ class ScenarioSampler {
     return config_.min_route > 0.0 || config_.max_route > 0.0 || asks_for_turns();
   }
 
+  /// For what joins a place that was given, wherever that is.
+  [[nodiscard]] Places anywhere() const { return ways_.cells_clear_by(clear()); }
   [[nodiscard]] double clear() const { return config_.robot_radius + config_.clearance; }
   /// A way may leave from nearer to things than it may pass by.
   [[nodiscard]] double passable(std::size_t root) const {
-    return std::min(clear(), grid_.clearance(root));
+    return std::min(clear(), ways_.clearance(root));
   }
 
   const WorldDescription& world_;
   const ScenarioConfig& config_;
-  FloorGrid grid_;
+  FloorWays ways_;
   FreePlaces places_;
   Random random_;
   double longest_ = 0.0;  ///< m, of the ways seen so far
@@ -119,30 +123,32 @@ class ScenarioSampler {
 StartAndGoal ScenarioSampler::with_start(const Pose2& start,
                                          const std::optional<Eigen::Vector2d>& goal) {
   const std::size_t root = checked(start);
-  const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
+  const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
   if (goal) {
-    const std::size_t end = goal->allFinite() ? grid_.cell_at(*goal) : FloorGrid::kNone;
-    if (end == FloorGrid::kNone || !std::isfinite(ways.length[end])) return {start, *goal, 0.0, {}};
-    return {start, *goal, length(ways, end), reversed(grid_.way_back(ways, end, passable(root)))};
+    const std::size_t end = goal->allFinite() ? ways_.cell_at(*goal) : FloorWays::kNone;
+    if (end == FloorWays::kNone || !std::isfinite(ways.length[end])) return {start, *goal, 0.0, {}};
+    return {start, *goal, length(ways, end), reversed(ways_.way_back(ways, end, passable(root)))};
   }
-  const std::size_t end = draw(ways, {places_.quiet(), places_.all()}, "goal", passable(root));
-  return {start, grid_.centre(end), length(ways, end),
-          reversed(grid_.way_back(ways, end, passable(root)))};
+  const std::size_t end =
+      draw(ways, {places_.quiet(), places_.all(), anywhere()}, "goal", passable(root));
+  return {start, ways_.centre(end), length(ways, end),
+          reversed(ways_.way_back(ways, end, passable(root)))};
 }
 
 StartAndGoal ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
   const Places starts = places_.away_from_movers(places_.all());
-  const std::size_t root = goal.allFinite() ? grid_.cell_at(goal) : FloorGrid::kNone;
-  if (root == FloorGrid::kNone || grid_.clearance(root) < config_.robot_radius) {
+  const std::size_t root = goal.allFinite() ? ways_.cell_at(goal) : FloorWays::kNone;
+  if (root == FloorWays::kNone || ways_.clearance(root) < config_.robot_radius) {
     // Navigation refuses such a goal; the start may then be anywhere.
-    const Eigen::Vector2d place = grid_.centre(starts[random_.below(starts.size())]);
+    const Eigen::Vector2d place = ways_.centre(starts[random_.below(starts.size())]);
     return {{place, 0.0}, goal, 0.0, {}};
   }
-  const FloorGrid::Ways ways = grid_.ways_from(root, passable(root));
+  const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
   const std::size_t start =
-      draw(ways, {places_.away_from_movers(places_.quiet()), starts}, "start", passable(root));
+      draw(ways, {places_.away_from_movers(places_.quiet()), starts, anywhere()}, "start",
+           passable(root));
   return {looking_back(ways, start), goal, length(ways, start),
-          grid_.way_back(ways, start, passable(root))};
+          ways_.way_back(ways, start, passable(root))};
 }
 
 StartAndGoal ScenarioSampler::with_nothing() {
@@ -162,11 +168,11 @@ std::optional<StartAndGoal> ScenarioSampler::between(const Places& places) {
   const double enough = asks_for_route() ? 0.0 : kUsualRoute;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const std::size_t root = places[random_.below(places.size())];
-    const FloorGrid::Ways ways = grid_.ways_from(root, clear());
+    const FloorWays::Ways ways = ways_.ways_from(root, clear());
     const std::size_t start = try_draw(ways, starts, clear());
-    if (start == FloorGrid::kNone || (best && length(ways, start) <= best->route_length)) continue;
-    best = {looking_back(ways, start), grid_.centre(root), length(ways, start),
-            grid_.way_back(ways, start, clear())};
+    if (start == FloorWays::kNone || (best && length(ways, start) <= best->route_length)) continue;
+    best = {looking_back(ways, start), ways_.centre(root), length(ways, start),
+            ways_.way_back(ways, start, clear())};
     if (best->route_length >= enough) break;
   }
   return best;
@@ -177,16 +183,16 @@ std::size_t ScenarioSampler::checked(const Pose2& start) const {
                           ", " + text(start.yaw) + ")";
   if (!start.position.allFinite() || !std::isfinite(start.yaw))
     throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
-  const std::size_t cell = grid_.cell_at(start.position);
-  if (cell == FloorGrid::kNone || grid_.clearance(cell) <= 0.0) {
-    const double floor = world_.floor_height + grid_.cell_size() / 2.0;
+  const std::size_t cell = ways_.cell_at(start.position);
+  if (cell == FloorWays::kNone || ways_.clearance(cell) <= 0.0) {
+    const double floor = world_.floor_height + ways_.floor().cell_size() / 2.0;
     const std::string thing =
         thing_at(world_, start.position, floor, world_.floor_height + config_.robot_height);
     throw WorldError(who + (thing.empty() ? " is off the floor" : " is in '" + thing + "'") +
                      " of world '" + world_.name + "'; allowed is free floor");
   }
-  if (grid_.clearance(cell) + grid_.cell_size() < config_.robot_radius)
-    throw WorldError(who + " is " + text(grid_.clearance(cell)) +
+  if (ways_.clearance(cell) + ways_.floor().cell_size() < config_.robot_radius)
+    throw WorldError(who + " is " + text(ways_.clearance(cell)) +
                      " m from a thing or the floor's edge; allowed is the robot's radius of " +
                      text(config_.robot_radius) + " m or more");
   return cell;
@@ -203,10 +209,10 @@ std::string ScenarioSampler::asked_for() const {
          " m, and routes had up to " + std::to_string(most_turns_) + " turns)";
 }
 
-ScenarioSampler::Places ScenarioSampler::ends_of(const FloorGrid::Ways& ways,
+ScenarioSampler::Places ScenarioSampler::ends_of(const FloorWays::Ways& ways,
                                                  const Places& places) {
   double longest = 0.0;
-  for (const std::size_t place : places_.all())
+  for (const std::size_t place : places)
     if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
   longest_ = std::max(longest_, longest);
   const double least = asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
@@ -217,54 +223,47 @@ ScenarioSampler::Places ScenarioSampler::ends_of(const FloorGrid::Ways& ways,
   });
 }
 
-std::size_t ScenarioSampler::try_draw(const FloorGrid::Ways& ways, const Places& places,
+std::size_t ScenarioSampler::try_draw(const FloorWays::Ways& ways, const Places& places,
                                       double least) {
   const Places ends = ends_of(ways, places);
-  if (ends.empty()) return FloorGrid::kNone;
+  if (ends.empty()) return FloorWays::kNone;
   if (!asks_for_turns()) return ends[random_.below(ends.size())];
   for (int i = 0; i < kDraws; ++i) {
     const std::size_t end = ends[random_.below(ends.size())];
-    const int count = turns(grid_.way_back(ways, end, least));
+    const int count = turns(ways_.way_back(ways, end, least));
     most_turns_ = std::max(most_turns_, count);
     if (count >= config_.min_turns && count <= config_.max_turns) return end;
   }
-  return FloorGrid::kNone;
+  return FloorWays::kNone;
 }
 
-std::size_t ScenarioSampler::draw(const FloorGrid::Ways& ways, const std::vector<Places>& choices,
+std::size_t ScenarioSampler::draw(const FloorWays::Ways& ways, const std::vector<Places>& choices,
                                   const std::string& what, double least) {
   for (const Places& places : choices) {
     const std::size_t end = try_draw(ways, places, least);
-    if (end != FloorGrid::kNone) return end;
+    if (end != FloorWays::kNone) return end;
   }
   throw WorldError("world '" + world_.name + "' has no free place for a " + what +
                    " that is connected to what was given" + asked_for());
 }
 
-Pose2 ScenarioSampler::looking_back(const FloorGrid::Ways& ways, std::size_t cell) const {
-  const Eigen::Vector2d place = grid_.centre(cell);
+Pose2 ScenarioSampler::looking_back(const FloorWays::Ways& ways, std::size_t cell) const {
+  const Eigen::Vector2d place = ways_.centre(cell);
   std::size_t ahead = cell;
   while (static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead) {
-    const std::size_t next = grid_.before(ways, ahead);
-    if (next == FloorGrid::kNone) break;
+    const std::size_t next = ways_.before(ways, ahead);
+    if (next == FloorWays::kNone) break;
     ahead = next;
   }
-  const Eigen::Vector2d view = grid_.centre(ahead) - place;
+  const Eigen::Vector2d view = ways_.centre(ahead) - place;
   return {place, std::atan2(view.y(), view.x())};
 }
 
 std::string ScenarioSampler::note_on(const StartAndGoal& drawn) const {
-  const auto block_at = [&](const Eigen::Vector2d& place) {
-    const std::size_t cell = place.allFinite() ? grid_.cell_at(place) : FloorGrid::kNone;
-    return cell == FloorGrid::kNone ? "" : places_.blocks().name_at(cell);
-  };
-  const std::string around_start = block_at(drawn.start.position);
-  const std::string around_goal = block_at(drawn.goal);
-  if (!around_start.empty() && around_start == around_goal)
-    return "start and goal lie inside of '" + around_start + "', a closed mesh";
-  if (!around_start.empty())
-    return "the start lies inside of '" + around_start + "', a closed mesh";
-  if (!around_goal.empty()) return "the goal lies inside of '" + around_goal + "', a closed mesh";
+  const double apart = (drawn.goal - drawn.start.position).norm();
+  if (apart < kNoRoute || (drawn.route_length > 0.0 && drawn.route_length < kLeastRoute))
+    return "start and goal are " + text(std::round(100.0 * apart) / 100.0) +
+           " m apart, too near for a trial";
   const Polygon& hull = places_.hull();
   if (hull.empty()) return {};
   std::string who;
@@ -312,6 +311,10 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
   StartAndGoal drawn = start  ? sampler.with_start(*start, goal)
                        : goal ? sampler.with_goal(*goal)
                               : sampler.with_nothing();
+  if (!(start && goal) && drawn.route_length > 0.0 && drawn.route_length < kNoRoute)
+    throw WorldError("world '" + world.name + "' has room for a way of " +
+                     text(drawn.route_length) + " m; allowed is " + text(kNoRoute) +
+                     " m or more from start to goal");
   drawn.note = sampler.note_on(drawn);
   return drawn;
 }
@@ -321,16 +324,16 @@ std::vector<Place> free_places_of(const WorldDescription& world, const occupancy
   std::vector<Place> places;
   if (world.places.empty()) return places;
   const double clear = config.robot_radius + config.clearance;
-  const FloorGrid grid(map, world.floor_height, config.robot_height, clear);
+  const FloorWays ways(floor_of(map, world.floor_height, config.robot_height, clear));
   for (Place place : world.places) {
     const Eigen::Vector2d middle = place.area.center();
     double nearest = std::numeric_limits<double>::infinity();
-    grid.for_each_row_in(place.area, [&](std::size_t cell, std::size_t end) {
+    ways.for_each_row_in(place.area, [&](std::size_t cell, std::size_t end) {
       for (; cell < end; ++cell) {
-        const double distance = (grid.centre(cell) - middle).norm();
-        if (grid.clearance(cell) < clear || distance >= nearest) continue;
+        const double distance = (ways.centre(cell) - middle).norm();
+        if (ways.clearance(cell) < clear || distance >= nearest) continue;
         nearest = distance;
-        place.at = grid.centre(cell);
+        place.at = ways.centre(cell);
       }
     });
     if (std::isfinite(nearest)) places.push_back(place);

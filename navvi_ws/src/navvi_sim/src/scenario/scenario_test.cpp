@@ -106,6 +106,39 @@ TEST_F(ScenarioIn, is_drawn_inside_a_house_and_not_in_the_ring_of_floor_around) 
             "the start lies outside of everything that stands in this world");
 }
 
+TEST_F(ScenarioIn, is_5_m_long_or_more_beside_a_small_thing_where_the_floor_has_it) {
+  WorldDescription world;
+  world.name = "can";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {14.0, 14.0, 0.1}));
+  world.things.push_back(thing("can", ThingClass::other, {0, 0, 0.1}, {0.1, 0.1, 0.2}));
+  enter(world);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) EXPECT_GE(draw(seed).route_length, 5.0) << seed;
+  world.things[0] = thing("ground", ThingClass::floor, {0, 0, -0.05}, {4.0, 4.0, 0.1});
+  enter(world);
+  EXPECT_NE(draw(1).note.find("too near for a trial"), std::string::npos);
+  EXPECT_GE(draw(1).route_length, 1.0);
+  world.things[0] = thing("ground", ThingClass::floor, {0, 0, -0.05}, {1.3, 1.3, 0.1});
+  world.things.pop_back();
+  enter(world);
+  EXPECT_THROW(static_cast<void>(draw(1)), WorldError);
+}
+
+TEST_F(ScenarioIn, is_drawn_in_the_furnished_part_of_a_floor_that_is_cut_in_two) {
+  WorldDescription world;
+  world.name = "house without a door";
+  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {60.0, 60.0, 0.1}));
+  for (const double side : {-1.0, 1.0}) {
+    world.things.push_back(thing("a", ThingClass::wall, {0, 6 * side, 1}, {12.2, 0.2, 2.0}));
+    world.things.push_back(thing("b", ThingClass::wall, {6 * side, 0, 1}, {0.2, 12.2, 2.0}));
+  }
+  world.things.push_back(thing("table", ThingClass::other, {2, 1, 0.4}, {1.0, 1.0, 0.8}));
+  enter(world);
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    EXPECT_LT(draw(seed).start.position.cwiseAbs().maxCoeff(), 6.0) << seed;
+    EXPECT_LT(draw(seed).goal.cwiseAbs().maxCoeff(), 6.0) << seed;
+  }
+}
+
 /// A box from (-x, -y) to (x, y) as a closed mesh of 2 m.
 void add_shell(Mesh& mesh, float x, float y) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -152,7 +185,7 @@ TEST_F(ScenarioIn, is_not_drawn_inside_of_a_closed_block) {
       EXPECT_FALSE(inside(scenario.goal, yaw)) << seed << " " << yaw;
     }
     EXPECT_EQ(draw(1, Pose2{{0.0, 0.0}, 0.0}, Eigen::Vector2d(1.0, 0.0)).note,
-              "start and goal lie inside of 'block', a closed mesh");
+              "start and goal are 1 m apart, too near for a trial");
   }
 }
 

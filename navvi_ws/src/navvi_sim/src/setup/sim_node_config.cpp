@@ -119,6 +119,7 @@ scenario::StartAndGoal scenario_of(const SimNodeConfig& config, const WorldDescr
                                    const occupancy::OccupancyMap& map) {
   scenario::ScenarioConfig drawing = config.scenario;
   drawing.robot_radius = config.life.robot.radius;
+  drawing.robot_height = config.life.robot.height;
   drawing.movers = config.life.movers;
   return scenario::draw_scenario(world, map, drawing, static_cast<std::uint64_t>(config.seed),
                                  config.start_pose(), config.goal_point());

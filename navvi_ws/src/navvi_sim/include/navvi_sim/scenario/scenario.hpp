@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <navvi_config/field.hpp>
+#include <navvi_types/headroom.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@
 namespace navvi_sim::scenario {
 
 struct ScenarioConfig {
-  double robot_radius = 0.35;   ///< m
-  double robot_height = 1.2;    ///< m, headroom that the robot needs
+  double robot_radius = 0.35;                    ///< m
+  double robot_height = navvi_types::kHeadroom;  ///< m
   double clearance = 0.15;      ///< m, more than the radius, to anything that stands still
   double off_lanes = 0.3;       ///< m, more than the radius, to ground that movers sweep
   double mover_distance = 2.0;  ///< m, at least, from the start to a mover at time zero
@@ -39,23 +40,24 @@ struct StartAndGoal {
                               ///< be reached
   std::vector<Eigen::Vector2d>
       route;              ///< m, from start to goal, pulled taut; empty if there is none
-  std::string note = {};  ///< a sentence if one of them lies outside of all that stands, or in a
-                          ///< closed block; else empty
+  std::string note = {};  ///< a sentence if one of them lies outside of all that stands, or they
+                          ///< are less than 5 m apart; else empty
 };
 
 /// How often a polyline turns: by 30 degrees or more from one leg of 1 m or more to the next.
 [[nodiscard]] int turns(const std::vector<Eigen::Vector2d>& polyline);
 
 /// Draws from `seed` what is not given. What is drawn is free, clear of things as `config` says,
-/// connected over the floor, in no closed block, inside the hull of what stands and in its rooms,
-/// where there are such,
-/// and, where the world has such places, off the ground that movers sweep: a robot that stood there
-/// would keep them from going on. A goal that is given is passed on as it is, free or not: refusing
-/// it is navigation's task. A drawn start looks along its route. Length and turns that are asked
-/// for hold for every route of which an end is drawn. \param map  of `world` (occupancy.hpp)
+/// connected over the floor on which navigation drives, on the part of it beside which most things
+/// stand, inside the hull of what stands and in its rooms, where there are such that are wide
+/// enough, and, where the world has such places, off the ground that movers sweep: a robot that
+/// stood there would keep them from going on. A goal that is given is passed on as it is, free or
+/// not: refusing it is navigation's task. A drawn start looks along its route. Length and turns
+/// that are asked for hold for every route of which an end is drawn. \param map  of `world`
+/// (occupancy.hpp)
 /// \throws WorldError as swept_ground, or if a given start is not finite, in an obstacle or off the
-/// floor, or if the world has no free place, or none for a route as long and with as many turns as
-/// asked for
+/// floor, if the map has no floor, or if the world has no free place, or none for a route as long
+/// and with as many turns as asked for, or of 1 m
 [[nodiscard]] StartAndGoal draw_scenario(const WorldDescription& world,
                                          const occupancy::OccupancyMap& map,
                                          const ScenarioConfig& config, std::uint64_t seed,

@@ -1,0 +1,259 @@
+#include "height_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+#include "navvi_floor/parallel.hpp"
+#include "navvi_floor/resample.hpp"
+
+namespace navvi_floor {
+namespace {
+
+/// Children on the low side of x, y and z; the others are a shift higher.
+constexpr unsigned kLowSide[3] = {0x55U, 0x33U, 0x0fU};
+constexpr int kBits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // that are set
+
+}  // namespace
+
+HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<Area>& wanted) {
+  measure(voxels, wanted);
+  if (!error_.empty()) return;
+  const auto width = static_cast<std::size_t>(size_[0]);
+  highest_.resize(width * static_cast<std::size_t>(size_[1]));
+  rows_.resize(static_cast<std::size_t>(size_[1]));
+  // Narrow bands need little room for spans that are to be joined; each looks at all octets.
+  constexpr std::size_t kBandColumns = 4U << 20U;
+  const int bands =
+      std::min(std::max({1, threads, static_cast<int>(highest_.size() / kBandColumns)}), size_[1]);
+  lower_.resize(static_cast<std::size_t>(bands));
+  in_parallel(bands, threads, [&](int band) {
+    std::vector<Lower>& lower = lower_[static_cast<std::size_t>(band)];
+    const auto row_at = [&](int end) {
+      return static_cast<int>(static_cast<std::int64_t>(size_[1]) * end / bands);
+    };
+    for (const Octet& octet : voxels.octets) add(octet, row_at(band), row_at(band + 1), lower);
+    settle(lower);
+    lower.push_back({static_cast<std::uint32_t>(highest_.size()), {}});
+    lower.shrink_to_fit();
+    const Lower* at = lower.data();
+    for (int row = row_at(band); row < row_at(band + 1); ++row) {
+      const std::size_t end = (static_cast<std::size_t>(row) + 1) * width;
+      const Lower* const begin = at;
+      while (at->column < end) ++at;
+      rows_[static_cast<std::size_t>(row)] = {begin, at};
+    }
+  });
+}
+
+const HeightField::Lower* HeightField::below(std::size_t column) const {
+  const Row& row = rows_[column / static_cast<std::size_t>(size_[0])];
+  return std::lower_bound(row.begin, row.end, column, [](const Lower& lower, std::size_t wanted) {
+    return lower.column < wanted;
+  });
+}
+
+void HeightField::measure(const Voxels& voxels, const std::optional<Area>& wanted) {
+  int low[3] = {kMapSide, kMapSide, kMapSide};
+  int high[3] = {0, 0, 0};
+  double runs = 0.0;
+  for (const Octet& octet : voxels.octets) {
+    const int at[3] = {octet.x, octet.y, octet.z};
+    const int side = 1 << octet.level;
+    const unsigned quarters = (octet.mask | octet.mask >> 4) & 0x0fU;
+    runs += static_cast<double>(kBits[quarters]) * side * side;
+    for (int k = 0; k < 3; ++k) {
+      const bool in_low = (octet.mask & kLowSide[k]) != 0;
+      const bool in_high = (octet.mask & ~kLowSide[k]) != 0;
+      low[k] = std::min(low[k], at[k] + (in_low ? 0 : side));
+      high[k] = std::max(high[k], at[k] + (in_high ? 2 * side : side));
+    }
+  }
+  if (voxels.octets.empty() && !wanted) {
+    error_ = "the map has no occupied voxel";
+    return;
+  }
+  for (int k = 0; k < 3; ++k) {
+    extent_.low[k] = low_[k] = low[k] - kMapCenter;
+    extent_.high[k] = high[k] - kMapCenter;
+    size_[k] = std::max(0, high[k] - low[k]);
+  }
+  if (size_[2] > kMaxLevels)
+    error_ = "the map is " + std::to_string(size_[2]) + " voxels tall; " +
+             std::to_string(kMaxLevels) + " are allowed";
+  const double columns = static_cast<double>(size_[0]) * size_[1];
+  const double stacked = kFreeRuns + kRunsANode * static_cast<double>(voxels.octets.size());
+  if (columns > kMaxCells)
+    error_ = "the map spreads over " + millions(columns) + " columns of voxels; " +
+             millions(kMaxCells) + " are allowed";
+  else if (runs > kMaxRuns)
+    error_ = "the map has " + millions(runs) + " runs of voxels in its columns; " +
+             millions(kMaxRuns) + " are allowed";
+  else if (runs > stacked && runs - columns_of_large_leaves(voxels) > stacked) {
+    const double apart = runs - columns_of_large_leaves(voxels) - touching_runs(voxels);
+    if (apart > stacked)
+      error_ = "the map stacks " + millions(apart) + " runs of voxels in its columns; with " +
+               std::to_string(voxels.octets.size()) + " nodes that hold leaves, " +
+               millions(stacked) + " are allowed";
+  }
+  if (!wanted) return;
+  low_[0] = wanted->low.x, low_[1] = wanted->low.y;
+  size_[0] = wanted->columns(), size_[1] = wanted->rows();
+}
+
+/// Columns that a leaf of kSquare voxels or more covers: one run of each stands in the grid.
+double HeightField::columns_of_large_leaves(const Voxels& voxels) const {
+  constexpr int kLevel = 3;
+  constexpr int kSquare = 1 << kLevel;
+  const int low_x = (low_[0] + kMapCenter) >> kLevel;
+  const int low_y = (low_[1] + kMapCenter) >> kLevel;
+  const int width = size_[0] / kSquare + 2;
+  std::vector<bool> squares(static_cast<std::size_t>(width) *
+                            static_cast<std::size_t>(size_[1] / kSquare + 2));
+  for (const Octet& octet : voxels.octets) {
+    if (octet.level < kLevel) continue;
+    const int side = 1 << (octet.level - kLevel);
+    const unsigned quarters = (octet.mask | octet.mask >> 4) & 0x0fU;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      if (((quarters >> quarter) & 1) == 0) continue;
+      const int x = (octet.x >> kLevel) - low_x + ((quarter & 1) != 0 ? side : 0);
+      const int y = (octet.y >> kLevel) - low_y + ((quarter & 2) != 0 ? side : 0);
+      for (int row = y; row < y + side; ++row) {
+        const auto first = squares.begin() + (std::ptrdiff_t{row} * width + x);
+        std::fill(first, first + side, true);
+      }
+    }
+  }
+  return kSquare * kSquare * static_cast<double>(std::count(squares.begin(), squares.end(), true));
+}
+
+/// Runs of leaves that join the leaf above or below, as those of a thick ground: each pair is
+/// counted once, for the smaller leaf or the lower one of two alike.
+double HeightField::touching_runs(const Voxels& voxels) {
+  const auto key = [](int level, int x, int y, int z) {  // in octets of this level
+    return static_cast<std::uint64_t>(level) << 48U | static_cast<std::uint64_t>(x) << 32U |
+           static_cast<std::uint64_t>(y) << 16U | static_cast<std::uint64_t>(z);
+  };
+  std::unordered_map<std::uint64_t, unsigned> masks;
+  int highest = 0;
+  for (const Octet& octet : voxels.octets) {
+    const int level = octet.level;
+    highest = std::max(highest, level);
+    masks[key(level, octet.x >> (level + 1), octet.y >> (level + 1), octet.z >> (level + 1))] |=
+        octet.mask;
+  }
+  /// Whether a leaf of `from` levels or more covers a voxel.
+  const auto is_leaf = [&](int from, int x, int y, int z) {
+    if (z < 0 || z >= kMapSide) return false;
+    for (int level = from; level <= highest; ++level) {
+      const auto octet =
+          masks.find(key(level, x >> (level + 1), y >> (level + 1), z >> (level + 1)));
+      const int child = (x >> level & 1) | (y >> level & 1) << 1 | (z >> level & 1) << 2;
+      if (octet != masks.end() && (octet->second >> child & 1U) != 0) return true;
+    }
+    return false;
+  };
+  double touching = 0.0;
+  for (const Octet& octet : voxels.octets) {
+    const int side = 1 << octet.level;
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      const bool in_low = (octet.mask >> quarter & 1) != 0;
+      const bool in_high = (octet.mask >> (quarter + 4) & 1) != 0;
+      if (!in_low && !in_high) continue;
+      const int x = octet.x + ((quarter & 1) != 0 ? side : 0);
+      const int y = octet.y + ((quarter & 2) != 0 ? side : 0);
+      const int joints =
+          static_cast<int>(is_leaf(octet.level, x, y, octet.z + (in_high ? 2 * side : side))) +
+          static_cast<int>(is_leaf(octet.level + 1, x, y, octet.z + (in_low ? 0 : side) - 1));
+      touching += static_cast<double>(joints) * side * side;
+    }
+  }
+  return touching;
+}
+
+/// \param first_row, last_row  rows of columns to fill, the last excluded
+void HeightField::add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower) {
+  const int side = 1 << octet.level;
+  const int first = octet.y - kMapCenter - low_[1];
+  if (first >= last_row || first + 2 * side <= first_row) return;
+  const int z = octet.z - kMapCenter - low_[2];
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const bool in_low = ((octet.mask >> quarter) & 1) != 0;
+    const bool in_high = ((octet.mask >> (quarter + 4)) & 1) != 0;
+    if (!in_low && !in_high) continue;
+    const int x = octet.x - kMapCenter - low_[0] + ((quarter & 1) != 0 ? side : 0);
+    const int y = first + ((quarter & 2) != 0 ? side : 0);
+    const Packed span{static_cast<std::uint16_t>(z + (in_low ? 0 : side)),
+                      static_cast<std::uint16_t>(z + (in_high ? 2 * side : side))};
+    const int from = std::max(x, 0), to = std::min(x + side, size_[0]);
+    for (int row = std::max(y, first_row); row < std::min(y + side, last_row); ++row) {
+      for (int column = from; column < to; ++column)
+        add(static_cast<std::uint32_t>(row * size_[0] + column), span, lower);
+    }
+  }
+}
+
+/// A stream runs upwards within a column, so that most spans begin one or grow it; any order will
+/// do: settle() sorts the spans that are apart here.
+void HeightField::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) {
+  Packed& high = highest_[column];
+  const std::uint16_t more = high.bottom & kMore;
+  const auto bottom = static_cast<std::uint16_t>(high.bottom & ~kMore);
+  if (high.top == 0) {
+    high = span;
+  } else if (span.bottom <= high.top && span.top >= bottom) {
+    high.bottom = std::min(bottom, span.bottom) | more;
+    high.top = std::max(high.top, span.top);
+  } else {
+    const bool above = span.bottom > high.top;
+    lower.push_back({column, above ? Packed{bottom, high.top} : span});
+    if (above) high = span;
+    high.bottom |= kMore;
+  }
+}
+
+/// Sorts by column, by so many bits at a time (LSD radix sort).
+void HeightField::sort_by_column(std::vector<Lower>& lower) const {
+  constexpr unsigned kBitsEach = 11;
+  constexpr std::uint32_t kDigit = (1U << kBitsEach) - 1;
+  std::vector<Lower> sorted(lower.size());
+  for (unsigned shift = 0; highest_.size() >> shift > 0; shift += kBitsEach) {
+    std::array<std::uint32_t, kDigit + 2> next{};  // where the next one of each digit goes
+    for (const Lower& one : lower) ++next[(one.column >> shift & kDigit) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (const Lower& one : lower) sorted[next[one.column >> shift & kDigit]++] = one;
+    lower.swap(sorted);
+  }
+}
+
+/// Sorts the spans below the highest ones and joins spans that touch.
+void HeightField::settle(std::vector<Lower>& lower) {
+  sort_by_column(lower);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < lower.size();) {
+    const std::uint32_t column = lower[i].column;
+    Packed* above = &highest_[column];
+    above->bottom &= static_cast<std::uint16_t>(~kMore);
+    const std::size_t first = kept;
+    std::size_t end = i + 1;
+    while (end < lower.size() && lower[end].column == column) ++end;
+    std::sort(&lower[i], lower.data() + end, [](const Lower& a, const Lower& b) {
+      return std::tie(b.span.top, b.span.bottom) < std::tie(a.span.top, a.span.bottom);
+    });
+    for (; i < end; ++i) {
+      const Packed span = lower[i].span;
+      if (span.top >= above->bottom) {
+        above->bottom = std::min(above->bottom, span.bottom);
+      } else {
+        lower[kept] = {column, span};
+        above = &lower[kept++].span;
+      }
+    }
+    if (kept > first) highest_[column].bottom |= kMore;
+  }
+  lower.resize(kept);
+}
+
+}  // namespace navvi_floor
