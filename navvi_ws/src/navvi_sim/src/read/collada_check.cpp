@@ -1,6 +1,7 @@
 #include "read/collada_check.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <optional>
@@ -126,9 +127,32 @@ class ColladaNodes {
     return word;
   }
 
+  /// Assimp reserves as much as is named, crashes on an array without its count, and reads a word
+  /// among indices again and again until no memory is left.
+  void check_numbers(const Tag& tag) const {
+    constexpr const char* kDigits = "0123456789";
+    const std::string name = shortened(printable(std::string(tag.name)));
+    const std::string count = value_of(tag.attributes, "count");
+    const bool whole = !count.empty() && count.find_first_not_of(kDigits) == std::string::npos;
+    const std::size_t end = tag.name.rfind("_array");
+    if ((tag.name == "accessor" || (end != std::string_view::npos && end + 6 == tag.name.size())) &&
+        !whole)
+      refuse("has a <" + name + "> whose count is \"" + shortened(printable(count)) +
+             "\"; allowed are whole numbers");
+    for (const char* attribute : {"count", "stride", "offset"})
+      if (std::strtod(value_of(tag.attributes, attribute).c_str(), nullptr) >
+          static_cast<double>(text_.size()))
+        refuse("has a <" + name + "> with a larger " + attribute + " than the file has bytes");
+    if (tag.name != "p" && tag.name != "v" && tag.name != "h" && tag.name != "vcount") return;
+    const std::size_t odd = text_.find_first_not_of("0123456789+- \t\r\n", at_ + 1);
+    if (!tag.closes && odd < text_.find('<', at_))
+      refuse("has a <" + name + "> that holds more than indices; allowed are whole numbers");
+  }
+
   void open(const Tag& tag) {
     if (elements_.size() == kDeepestElement)
       refuse("has elements nested more than " + std::to_string(kDeepestElement) + " deep");
+    check_numbers(tag);
     elements_.push_back(innermost());
     const std::size_t parent = innermost();
     if (tag.name == "node" || tag.name == "visual_scene") {

@@ -80,6 +80,28 @@ void check_stl(const std::filesystem::path& file) {
     refuse_size(file);
 }
 
+/// Refuses a face of so many corners that it takes long to cut into triangles.
+void check_obj(const std::filesystem::path& file) {
+  constexpr std::size_t kMostCorners = 5'000;  // twice as many take four times as long
+  std::ifstream stream(file, std::ios::binary);
+  bool goes_on = false;
+  std::size_t corners = 0;
+  for (std::string line; std::getline(stream, line);
+       goes_on = !line.empty() && line.back() == '\\') {
+    while (!line.empty() && line.back() == '\r') line.pop_back();
+    const std::size_t begin = line.find_first_not_of(" \t");
+    if (!goes_on) corners = 0;
+    if (begin == std::string::npos || (!goes_on && line[begin] != 'f')) continue;
+    for (std::size_t at = line.find_first_of(" \t", begin); at < line.size();
+         at = line.find_first_of(" \t", at)) {
+      at = line.find_first_not_of(" \t", at);
+      if (at < line.size() && ++corners > kMostCorners)
+        refuse(file, "has a face of more than " + std::to_string(kMostCorners) +
+                         " corners; allowed is up to that");
+    }
+  }
+}
+
 /// Collada without what assimp's reader trips over and Gazebo's own does not: comments, and blanks
 /// before the first word of an element.
 std::string plain_collada(const std::filesystem::path& file) {
@@ -211,6 +233,7 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
     refuse(file, "has a scale that is zero or not finite; allowed are other numbers");
   const std::string extension = check_file(file);
   if (extension == ".stl") check_stl(file);
+  if (extension == ".obj") check_obj(file);
   Assimp::Importer importer;
   importer.SetIOHandler(new MeshAlone(file.string()));  // the importer's from now on
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as Gazebo does

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <cmath>
+#include <fstream>
+
 #include "sdf_folder.hpp"
 
 namespace navvi_sim::read {
@@ -143,6 +146,41 @@ TEST_F(MeshFile, refuses_what_is_neither_dae_nor_stl_nor_obj) {
                     "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
                     "vertex 0 1 0\nendloop\nendfacet\nendsolid a\n"),
             "");
+}
+
+TEST_F(MeshFile, with_a_face_of_very_many_corners_or_more_values_than_bytes_is_refused) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  std::string face = "f";
+  std::string obj;
+  for (int i = 1; i <= 60'000; ++i) {
+    obj += "v " + std::to_string(std::cos(1e-4 * i)) + " " + std::to_string(std::sin(1e-4 * i)) +
+           " 0\n";
+    face += " " + std::to_string(i);
+  }
+  const auto sentence_of = [&](const std::string& name, const std::string& text) -> std::string {
+    const std::filesystem::path file = folder / ("navvi_" + name);
+    std::ofstream(file) << text;
+    try {
+      (void)read_mesh(file, {});
+    } catch (const WorldError& error) {
+      std::filesystem::remove(file);
+      return error.what();
+    }
+    return "read";
+  };
+  EXPECT_NE(sentence_of("face.obj", obj + face + "\n").find("corners"), std::string::npos);
+  const std::string good = collada("", "<node id='n'>" + kPiece + "</node>");
+  EXPECT_EQ(sentence_of("good.dae", good), "read");
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = good;
+    text.replace(text.find(from), from.size(), to);
+    return sentence_of("bad.dae", text);
+  };
+  EXPECT_NE(changed("count='9'", "count='900000000'").find("larger count"), std::string::npos);
+  EXPECT_NE(changed("stride='3'", "stride='300000000'").find("larger stride"), std::string::npos);
+  for (const char* count : {"", "counm='9'", "count='W'"})
+    EXPECT_NE(changed("count='9'", count).find("whole numbers"), std::string::npos) << count;
+  EXPECT_NE(changed("0 1 2</p>", "0 1 \x89</p>").find("indices"), std::string::npos);
 }
 
 }  // namespace
