@@ -23,8 +23,11 @@ def draw(path, run, *words):
     else:
         with tempfile.NamedTemporaryFile(suffix=".svg") as svg:
             status = run(*words, "-o", svg.name)
-            if os.stat(svg.name).st_size and subprocess.run(["rsvg-convert", "-o", str(path), svg.name], stderr=subprocess.DEVNULL).returncode:
-                fail(f"the picture \"{path}\" cannot be written; name a place that can be, such as /tmp/{path.name}.", 2)
+            if os.stat(svg.name).st_size:
+                drawn = subprocess.run(["rsvg-convert", "-o", str(path), svg.name], stderr=subprocess.PIPE, text=True)
+                if drawn.returncode:
+                    why = drawn.stderr.strip().splitlines()[-1:] or ["rsvg-convert ended with an error"]
+                    fail(f"the picture \"{path}\" cannot be drawn: {why[0]}. A picture in .svg needs no rsvg-convert.", 2)
     if status == 0:
         say(f"the picture is in {path}.")
     return status

@@ -5,16 +5,22 @@ import re
 import subprocess
 import sys
 import tempfile
+import threading
 from pathlib import Path
 
 from .places import config_of, program, share
-from .say import Failure, fail
+from .say import Failure, aside, fail
 
 
 def answer(path, *words):
     """Runs a program with --json: how it ended with what it told people, and what it told programs (None if nothing)."""
+    hint = threading.Timer(3.0, aside, ["still at work; a large world takes minutes."])
+    hint.start()
     with tempfile.NamedTemporaryFile(suffix=".json") as file:
-        done = subprocess.run([str(path), *map(str, words), "--json", file.name], text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        try:
+            done = subprocess.run([str(path), *map(str, words), "--json", file.name], text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        finally:
+            hint.cancel()
         text = file.read()
     return done, json.loads(text.decode(errors="replace")) if text else None
 
