@@ -99,28 +99,37 @@ void add_level(Surfaces& surfaces, const Thing& thing) {
   }
 }
 
-/// m, in map: the top of the slab that covers most of a storey, or much of it and bears half of the
-/// things on it or more, such as asphalt on a ground plane; of several the highest, and `floor` if
-/// there is none.
+/// m, in map: the top of the slabs of one height that cover most of a storey, or much of it and
+/// bear half of the things on it or more, such as asphalt on a ground plane; of several heights the
+/// highest, and `floor` if there is none.
 double top_of_slab(const std::vector<Thing>& things, double floor, double area) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Thing& thing : things) boxes.push_back(bounds_of({thing}));
-  double height = floor;
+  std::map<long, std::vector<std::size_t>> slabs;  // by their tops
   for (std::size_t i = 0; i < things.size(); ++i) {
     const double top = boxes[i].max().z();
-    if (things[i].route || top <= height || top > floor + kStands) continue;
-    const double slab = level_area(things[i], top - kBin, top);
-    if (slab < kSlab * area) continue;
+    if (!things[i].route && top > floor && top <= floor + kStands &&
+        level_area(things[i], top - kBin, top) > 0.0)
+      slabs[std::lround(top / kBin)].push_back(i);
+  }
+  double height = floor;
+  for (const auto& [level, same] : slabs) {
+    const double top = boxes[same.front()].max().z();
+    double covered = 0.0;
+    for (const std::size_t i : same)
+      covered += level_area(things[i], boxes[i].max().z() - kBin, boxes[i].max().z());
+    if (covered < kSlab * area) continue;
     int on_slab = 0, others = 0;
     for (const Eigen::AlignedBox3d& box : boxes) {
       if (box.max().z() <= top || box.min().z() > top + kStands) continue;
       ++others;
       const Eigen::Vector3d centre = box.center();
-      if ((centre - boxes[i].min()).head<2>().minCoeff() >= 0.0 &&
-          (boxes[i].max() - centre).head<2>().minCoeff() >= 0.0)
-        ++on_slab;
+      on_slab += std::any_of(same.begin(), same.end(), [&](std::size_t i) {
+        return (centre - boxes[i].min()).head<2>().minCoeff() >= 0.0 &&
+               (boxes[i].max() - centre).head<2>().minCoeff() >= 0.0;
+      });
     }
-    if (slab >= kMost * area || (on_slab > 0 && 2 * on_slab >= others)) height = top;
+    if (covered >= kMost * area || (on_slab > 0 && 2 * on_slab >= others)) height = top;
   }
   return height;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 
 #include "description/sentence.hpp"
@@ -64,7 +65,56 @@ std::optional<fs::path> version_in(const fs::path& model, const std::string& wan
   return model / std::to_string(newest);
 }
 
+/// The nearest folder above a file that holds something of that name; empty if none does.
+fs::path above(const fs::path& file, const char* name) {
+  std::error_code error;
+  for (fs::path folder = fs::absolute(file).parent_path(); folder.has_relative_path();
+       folder = folder.parent_path())
+    if (fs::exists(folder / name, error)) return folder;
+  return {};
+}
+
 }  // namespace
+
+std::map<std::string, fs::path> models_around(const fs::path& world_file) {
+  constexpr int kMostEntries = 50'000;
+  std::map<std::string, fs::path> models;
+  fs::path root = above(world_file, ".git");
+  if (root.empty()) root = above(world_file, "package.xml");
+  std::error_code error;
+  fs::recursive_directory_iterator entry(root, fs::directory_options::skip_permission_denied,
+                                         error);
+  for (int i = 0;
+       !root.empty() && !error && entry != fs::recursive_directory_iterator() && i < kMostEntries;
+       ++i, entry.increment(error)) {
+    const fs::path& file = entry->path();
+    if (file.filename() == ".git") entry.disable_recursion_pending();
+    if (file.filename() == "model.config" || file.filename() == "model.sdf")
+      models.emplace(file.parent_path().filename().string(), file.parent_path().parent_path());
+  }
+  return models;
+}
+
+std::vector<fs::path> exported_folders(const fs::path& world_file) {
+  const fs::path package = above(world_file, "package.xml");
+  if (package.empty()) return {};
+  std::ostringstream text;
+  text << std::ifstream(package / "package.xml").rdbuf();
+  const std::string all = text.str();
+  std::vector<fs::path> result;
+  for (std::size_t at = 0; (at = all.find("gazebo_model_path", at)) != std::string::npos; ++at) {
+    const std::size_t begin = all.find_first_of("\"'", at);
+    if (begin == std::string::npos) break;
+    std::istringstream stream(all.substr(begin + 1, all.find(all[begin], begin + 1) - begin - 1));
+    for (std::string folder; std::getline(stream, folder, ':');) {
+      const std::string prefix = "${prefix}";
+      if (folder.rfind(prefix, 0) == 0) folder.replace(0, prefix.size(), package.string());
+      std::error_code error;
+      if (fs::is_directory(folder, error)) result.push_back(fs::path(folder).lexically_normal());
+    }
+  }
+  return result;
+}
 
 ModelPlaces model_places(const std::string& models) {
   std::vector<fs::path> last{from_environment("HOME", ".gazebo/models")};

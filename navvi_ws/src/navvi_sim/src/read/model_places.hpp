@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,5 +28,15 @@ struct ModelPlaces {
 /// \param caches   ModelPlaces::fuel
 [[nodiscard]] std::optional<std::filesystem::path> find_downloaded(
     const std::string& address, const std::vector<std::filesystem::path>& caches);
+
+/// The models of the repository, or package, around a world file: their folders' parents, by name.
+/// Of a large one some are not found.
+[[nodiscard]] std::map<std::string, std::filesystem::path> models_around(
+    const std::filesystem::path& world_file);
+
+/// The folders that the package.xml nearest above a world file exports to Gazebo by
+/// `gazebo_model_path`.
+[[nodiscard]] std::vector<std::filesystem::path> exported_folders(
+    const std::filesystem::path& world_file);
 
 }  // namespace navvi_sim::read

@@ -107,6 +107,7 @@ SdfFiles::SdfFiles(const fs::path& world_file, ModelPlaces places)
     folders_.push_back(folder / "models");
     folders_.push_back(folder);
   }
+  for (fs::path& folder : exported_folders(world_file)) folders_.push_back(std::move(folder));
   folders_.insert(folders_.end(), places_.last.begin(), places_.last.end());
 }
 
@@ -137,19 +138,32 @@ std::optional<fs::path> SdfFiles::find(const std::string& uri, const fs::path& f
   return std::nullopt;
 }
 
-std::string SdfFiles::looked_in() const {
-  std::string text;
+std::string SdfFiles::looked_for(const std::string& uri) const {
+  if (uri.rfind("http", 0) == 0)
+    return "not downloaded yet; gz fuel download -u " + shortened(printable(uri)) + " brings it";
+  std::string looked;
   std::error_code error;
   for (const std::vector<fs::path>& folders : {folders_, places_.fuel})
     for (const fs::path& folder : folders)
-      if (fs::is_directory(folder, error)) text += (text.empty() ? "" : ", ") + folder.string();
-  return text;
+      if (fs::is_directory(folder, error)) looked += (looked.empty() ? "" : ", ") + folder.string();
+  if (!nearby_) nearby_ = models_around(world_file_);
+  const std::size_t scheme = uri.find("://");
+  const fs::path path = uri.substr(scheme == std::string::npos ? 0 : scheme + 3);
+  const auto near = path.empty() ? nearby_->end() : nearby_->find(path.begin()->string());
+  return "not there; looked in " + looked +
+         (near == nearby_->end() ? " (give its folder as models)"
+                                 : " (models:=" + near->second.string() + " has it)");
 }
 
 const XmlElement& SdfFiles::document(const fs::path& file) {
   const auto known = documents_.find(file);
   if (known != documents_.end()) return known->second;
   return documents_.emplace(file, read_xml(file)).first->second;
+}
+
+void SdfFiles::note_repairs(SdfNotes& notes) const {
+  for (const auto& [file, root] : documents_)
+    for (const std::string& repair : root.repairs) notes.add(file.string(), repair);
 }
 
 XmlElement SdfFiles::world(SdfNotes& notes) {
@@ -192,11 +206,9 @@ void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path
 }
 
 std::optional<XmlElement> SdfFiles::stand_in(const XmlElement& include, const std::string& uri,
-                                             SdfNotes& notes) const {
+                                             SdfNotes& notes) {
   const Stock stock = stock_of(uri);
-  if (stock == Stock::none)
-    refuse(include, "the model '" + uri + "' is not there; looked in " + looked_in() +
-                        " (give its folder as models)");
+  if (stock == Stock::none) refuse(include, "the model '" + uri + "' is " + looked_for(uri));
   if (stock == Stock::sun) {
     notes.add_harmless(include);
     return std::nullopt;

@@ -29,8 +29,11 @@ class SdfFiles {
   /// includes itself, or that is nested too deep
   [[nodiscard]] XmlElement world(SdfNotes& notes);
 
-  /// The folders that are looked in, for an error sentence.
-  [[nodiscard]] std::string looked_in() const;
+  /// Notes what was read of all files though it is no XML.
+  void note_repairs(SdfNotes& notes) const;
+
+  /// For an error sentence: the folders that were looked in, and how `uri` is found.
+  [[nodiscard]] std::string looked_for(const std::string& uri) const;
 
  private:
   void expand(XmlElement& element, SdfNotes& notes, std::vector<std::filesystem::path>& chain);
@@ -38,7 +41,7 @@ class SdfFiles {
                                                    std::vector<std::filesystem::path>& chain);
   /// What Gazebo ships itself and a world may therefore include. nullopt: it means nothing here
   [[nodiscard]] std::optional<XmlElement> stand_in(const XmlElement& include,
-                                                   const std::string& uri, SdfNotes& notes) const;
+                                                   const std::string& uri, SdfNotes& notes);
   /// The file of a model that was found. \throws WorldError at `include` if it cannot be read
   [[nodiscard]] std::filesystem::path model_file(const XmlElement& include,
                                                  const std::filesystem::path& found);
@@ -50,7 +53,9 @@ class SdfFiles {
   std::map<std::filesystem::path, XmlElement> documents_;
   std::map<std::filesystem::path, std::filesystem::path> model_files_;  ///< by the model's folder
   std::map<std::filesystem::path, std::string> broken_;  ///< models, and what is wrong with them
-  std::size_t elements_ = 0;                             ///< of all that was put together
+  mutable std::optional<std::map<std::string, std::filesystem::path>>
+      nearby_;                ///< as models_around
+  std::size_t elements_ = 0;  ///< of all that was put together
 };
 
 }  // namespace navvi_sim::read

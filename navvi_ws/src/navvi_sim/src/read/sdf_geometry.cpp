@@ -94,9 +94,7 @@ SdfGeometry SdfShapes::read(const XmlElement& geometry, const Eigen::Isometry3d&
 std::shared_ptr<const Mesh> SdfShapes::mesh(const XmlElement& mesh, const Eigen::Vector3d& scale) {
   const XmlElement& uri = required(mesh, "uri");
   const auto found = files_.find(uri.text, *mesh.file);
-  if (!found)
-    refuse(uri, "the mesh '" + uri.text + "' is not there; looked in " + files_.looked_in() +
-                    " (give its folder as models)");
+  if (!found) refuse(uri, "the mesh '" + uri.text + "' is " + files_.looked_for(uri.text));
   MeshPart part;
   if (const XmlElement* own = mesh.child("scale")) part.scale = vector3(*own);
   if (!scale.isOnes()) part.scale = scale;

@@ -209,6 +209,14 @@ TEST_F(HostileWorld, with_a_mangled_mesh_is_read_or_refused_with_a_sentence) {
   }
 }
 
+TEST_F(HostileWorld, of_an_element_with_very_many_attributes_is_refused_at_once) {
+  std::string many;
+  for (int i = 0; i < 200'000; ++i) many += " a" + std::to_string(i) + "='1'";
+  const std::string sentence = sentence_of(write_world("\n<model name='m'" + many + "/>"));
+  EXPECT_NE(sentence.find("attributes or more"), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find("line "), std::string::npos) << sentence;
+}
+
 }  // namespace
 }  // namespace navvi_sim::read
 

@@ -124,9 +124,36 @@ TEST_F(MissingPiece, is_said_once_for_all_notes_of_a_kind) {
   for (int i = 1; i <= 30; ++i)
     body += "\n<model name='ghost_" + std::to_string(i) + "'><link name='l'/></model>";
   const LoadedWorld loaded = load(body);
-  EXPECT_EQ(loaded.notes.size(), 1U);
+  EXPECT_EQ(loaded.notes.size(), 2U) << "this, and that nothing stands";
   EXPECT_TRUE(has_note(loaded, {"'ghost_1'", "29 more of the same kind: 'ghost_2', 'ghost_3'"}));
   EXPECT_FALSE(has_note(loaded, {"'ghost_30'"}));
+}
+
+TEST_F(MissingPiece, is_said_to_be_in_the_folder_of_the_repository_that_has_it) {
+  write(".git/HEAD", "ref");
+  write("media/more/shelf/model.config", "<model/>");
+  const std::string world =
+      write("worlds/deep/my.world", "<sdf version='1.6'><world name='w'>" + include("shelf") +
+                                        include("none") + "</world></sdf>");
+  const std::string sentence = sentence_of(world);
+  EXPECT_NE(sentence.find("models:=" + (folder_ / "media/more").string() + " has it"),
+            std::string::npos)
+      << sentence;
+  EXPECT_NE(sentence.find("give its folder as models"), std::string::npos) << sentence;
+  const std::string fuel = "https://fuel.gazebosim.org/1.0/OpenRobotics/models/Depot";
+  EXPECT_NE(sentence_of(write_world("<include><uri>" + fuel + "</uri></include>"))
+                .find("gz fuel download -u " + fuel),
+            std::string::npos);
+}
+
+TEST_F(MissingPiece, is_found_in_the_folder_that_the_package_exports_to_gazebo) {
+  write("package.xml",
+        "<package><export><gazebo_ros gazebo_model_path=\"${prefix}/media\"/></export></package>");
+  write("media/crate/model.sdf", "<sdf version='1.6'>" + box("crate", "3 0 0.5 0 0 0") + "</sdf>");
+  const std::string world =
+      write("worlds/deep/my.world",
+            "<sdf version='1.6'><world name='w'>" + ground_ + include("crate") + "</world></sdf>");
+  EXPECT_NE(thing_named(load_world({world}).world, "crate"), nullptr);
 }
 
 }  // namespace

@@ -173,6 +173,12 @@ void SdfNotes::add_harmless(const XmlElement& element) {
   harmless_[element.name].push_back(quoted + "line " + std::to_string(element.line));
 }
 
+std::string SdfNotes::left_out() const {
+  std::string all;
+  for (const std::string& line : faults_.lines(kNotesNamed)) all += "\n  LEFT OUT: " + line;
+  return all;
+}
+
 std::vector<std::string> SdfNotes::sentences() const {
   std::vector<std::string> result;
   for (const std::string& line : faults_.lines(kFaultsNamed)) result.push_back("LEFT OUT: " + line);

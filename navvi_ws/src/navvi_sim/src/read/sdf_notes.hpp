@@ -54,6 +54,8 @@ class SdfNotes {
   void refuse_faults() const;
 
   [[nodiscard]] std::vector<std::string> sentences() const;
+  /// Of an error that may come of it: what was left out, a line each; empty if nothing was.
+  [[nodiscard]] std::string left_out() const;
 
  private:
   void add_plugin(const XmlElement& plugin, const XmlElement& owner);

@@ -1,6 +1,7 @@
 #include "read/sdf_things.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "description/aabb_tree.hpp"
 #include "description/floor_height.hpp"
@@ -24,6 +25,8 @@ constexpr double kLeastLevel = 0.02;     // and less than this is terrain
 constexpr double kHeadroom = 2.0;        // m, below another storey
 constexpr double kSlab = 0.35;           // m, between a storey's surface and the foot of its slab
 constexpr double kCarried = 0.05;        // m, between a thing and what it stands on
+constexpr double kCarries = 0.5;         // of the outlines of what stands, that a floor carries
+constexpr double kStands = 0.1;          // m above the floor, that it rises at least
 
 /// Whether a box meets a shape, a mesh by the boxes of its triangles.
 bool meets(const Thing& thing, const Shape& shape, const Eigen::AlignedBox3d& box) {
@@ -107,10 +110,7 @@ void SdfThings::find_floor(const std::filesystem::path& file) {
   if (!main_floor_height(loaded.world.things)) find_floor_of_buildings();
   const auto height = main_floor_height(loaded.world.things);
   if (!height)
-    throw WorldError(file.string() +
-                     ": no thing is a floor with a level surface, and no building has one. Allowed "
-                     "are worlds with a ground plane: add <include><uri>model://ground_plane</uri>"
-                     "</include> at the height on which things stand; it hides nothing");
+    refuse_floor(file, "no thing is a floor with a level surface, and no building has one");
   loaded.world.floor_height = *height;
   judge_terrain(*height, file);
   const auto storey = storey_above(loaded.world.things, *height + kHeadroom);
@@ -119,7 +119,63 @@ void SdfThings::find_floor(const std::filesystem::path& file) {
     loaded.world.things[thing].pose.translation().z() = *height;
   leave_out_what_is_under(*height, file);
   if (storey) leave_out_storey(*storey);
+  judge_what_stands(*height, file);
   name_what_hangs();
+}
+
+void SdfThings::refuse_floor(const std::filesystem::path& file, const std::string& why) const {
+  throw WorldError(file.string() + ": " + why +
+                   ". Allowed are worlds with a ground plane: add <include><uri>"
+                   "model://ground_plane</uri></include> at the height on which things stand; it "
+                   "hides nothing" +
+                   notes_.left_out());
+}
+
+/// A floor carries more than half of what stands, by the area of outlines: else it is the bottom of
+/// a rack, and the true floor is missing.
+void SdfThings::judge_what_stands(double height, const std::filesystem::path& file) {
+  std::vector<Eigen::AlignedBox3d> floors, standing;
+  for (const Thing& thing : loaded.world.things) {
+    Eigen::AlignedBox3d bounds = bounds_of({thing});
+    if (bounds.isEmpty()) continue;
+    if (bounds.max().z() > height + kStands) standing.push_back(bounds);
+    if (thing.thing_class != ThingClass::floor ||
+        level_area(thing, height - kDrivenOver, height + kDrivenOver) <= 0.0)
+      continue;
+    // Floors that touch are one.
+    bounds.min() -= Eigen::Vector3d::Constant(kDrivenOver);
+    bounds.max() += Eigen::Vector3d::Constant(kDrivenOver);
+    for (std::size_t i = floors.size(); i-- > 0;)
+      if (floors[i].intersects(bounds)) {
+        bounds.extend(floors[i]);
+        floors.erase(floors.begin() + static_cast<std::ptrdiff_t>(i));
+        i = floors.size();
+      }
+    floors.push_back(bounds);
+  }
+  if (standing.empty()) {
+    notes_.add(file.string(), "NOTHING STANDS in this world: a trial there measures nothing");
+    return;
+  }
+  const auto area = [](const Eigen::AlignedBox3d& box) {
+    return box.sizes().x() * box.sizes().y();
+  };
+  double all = 0.0, most = 0.0;
+  for (const Eigen::AlignedBox3d& thing : standing) all += area(thing);
+  for (const Eigen::AlignedBox3d& floor : floors) {
+    double carried = 0.0;
+    for (const Eigen::AlignedBox3d& thing : standing) {
+      const Eigen::Vector2d centre = thing.center().head<2>();
+      if ((centre - floor.min().head<2>()).minCoeff() >= 0.0 &&
+          (floor.max().head<2>() - centre).minCoeff() >= 0.0)
+        carried += area(thing);
+    }
+    most = std::max(most, carried);
+  }
+  if (all > 0.0 && most <= kCarries * all)
+    refuse_floor(file, "no floor carries more than half of what stands: the best one, at " +
+                           text(std::round(1000.0 * height) / 1000.0 + 0.0) + " m, carries " +
+                           text(std::round(100.0 * most / all)) + " %");
 }
 
 /// A building of one piece has its own floor, which no rule knows by name.
@@ -206,6 +262,7 @@ void SdfThings::leave_out_what_is_under(double height, const std::filesystem::pa
     return thing.thing_class != ThingClass::floor && top_of(thing) < height;
   };
   leave_out_spares(height);
+  leave_out_what_is_in_slabs(height);
   const std::size_t all = places_.size();
   const std::vector<Lost> lost = leave_out(is_under);
   for (const Lost& one : lost)
@@ -216,6 +273,23 @@ void SdfThings::leave_out_what_is_under(double height, const std::filesystem::pa
                      std::to_string(height) +
                      " m; allowed is a tenth. A plane, or a model that a " +
                      "class rule calls a floor, must lie where the things stand");
+}
+
+/// Such as people who are plates of 2 cm on a slab of 5 cm.
+void SdfThings::leave_out_what_is_in_slabs(double height) {
+  std::vector<Eigen::AlignedBox3d> slabs;
+  for (const Thing& thing : loaded.world.things)
+    if (!thing.route && std::abs(top_of(thing) - height) < kDrivenOver / 2.0 &&
+        level_area(thing, height - kDrivenOver, height + kDrivenOver) >= kLeastFloor)
+      slabs.push_back(bounds_of({thing}));
+  const std::vector<Lost> lost = leave_out([&](const Thing& thing) {
+    const Eigen::AlignedBox3d bounds = bounds_of({thing});
+    return thing.thing_class != ThingClass::floor && bounds.max().z() < height &&
+           std::any_of(slabs.begin(), slabs.end(),
+                       [&](const Eigen::AlignedBox3d& slab) { return slab.contains(bounds); });
+  });
+  for (const Lost& one : lost)
+    notes_.add(one.place, "'" + one.name + "' is not taken over: all of it lies within a slab");
 }
 
 /// Models that Gazebo parks far below the floor, for plugins to fetch, where some things stand on

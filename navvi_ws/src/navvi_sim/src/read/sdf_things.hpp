@@ -43,8 +43,8 @@ class SdfThings {
 
   /// Adds the planes, finds the floor's height, gives another class to what a rule calls a floor
   /// and is none, leaves out what lies under the floor and on storeys above, and names what hangs
-  /// in the air. \throws WorldError that begins with `file` if no thing is a floor, or too much
-  /// lies under it
+  /// in the air. \throws WorldError that begins with `file` if no thing is a floor, it
+  /// carries little of what stands, or too much lies under it
   void find_floor(const std::filesystem::path& file);
 
   LoadedWorld loaded;
@@ -65,6 +65,7 @@ class SdfThings {
 
   void add_planes();
   [[noreturn]] void refuse_width(double width) const;
+  [[noreturn]] void refuse_floor(const std::filesystem::path& file, const std::string& why) const;
   void find_floor_of_buildings();
   void judge_floors(double height);
   void judge_terrain(double height, const std::filesystem::path& file);
@@ -72,8 +73,10 @@ class SdfThings {
   std::vector<Lost> leave_out(const std::function<bool(const Thing&)>& is_lost);
   void leave_out_what_is_under(double height, const std::filesystem::path& file);
   void leave_out_spares(double height);
+  void leave_out_what_is_in_slabs(double height);
   /// With all that is above it.
   void leave_out_storey(double storey);
+  void judge_what_stands(double height, const std::filesystem::path& file);
   void name_what_hangs();
 
   SdfNotes& notes_;

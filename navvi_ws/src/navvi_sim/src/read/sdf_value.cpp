@@ -49,7 +49,8 @@ std::vector<double> numbers(const XmlElement& element, std::size_t count) {
   if (values.size() != count)
     refuse(element, "<" + element.name + "> is \"" + shortened(element.text) + "\"; allowed " +
                         (count == 1 ? "is one finite number"
-                                    : "are " + std::to_string(count) + " finite numbers"));
+                                    : "are " + std::to_string(count) + " finite numbers") +
+                        (element.text.find("${") == std::string::npos ? "" : "; run xacro first"));
   return values;
 }
 

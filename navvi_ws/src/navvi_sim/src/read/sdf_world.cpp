@@ -74,7 +74,7 @@ class WorldReader {
   [[nodiscard]] LoadedWorld read() {
     const XmlElement world = files_.world(notes_);
     LoadedWorld& loaded = things_.loaded;
-    loaded.world.name = name_of(world).empty() ? file_.stem().string() : name_of(world);
+    loaded.world.name = name_of(world).empty() ? file_.stem().string() : shortened(name_of(world));
     const std::string gravity = world.text_of("gravity");
     weightless_ = !gravity.empty() && gravity.find_first_of("123456789") == std::string::npos;
     for (const XmlElement* state : world.children_named("state")) keep_state(*state, world);
@@ -88,6 +88,7 @@ class WorldReader {
     say_what_was_saved(world);
     things_.find_floor(file_);
     if (has_foreign_routes_) keep_routes_that_can_be_driven(loaded.world, things_.places(), notes_);
+    files_.note_repairs(notes_);
     loaded.notes = notes_.sentences();
     return std::move(loaded);
   }

@@ -313,7 +313,8 @@ TEST_F(SdfWorld, may_have_comments_before_its_declaration) {
   for (const char* before : {"<!-- a -->", " <!-- a\n --> <!-- <?xml b?> -->\n", "\n"})
     EXPECT_EQ(load_world({write("a.world", before + declaration + rest)}).world.things.size(), 1U)
         << before;
-  EXPECT_NE(sentence_of(write("two.world", declaration + rest + declaration + rest)), "");
+  EXPECT_TRUE(has_note(load_world({write("two.world", declaration + rest + declaration + rest)}),
+                       {"what follows the root element is left out"}));
   EXPECT_NE(sentence_of(write("open.world", "<!-- a " + declaration + rest)), "");
 }
 
@@ -501,6 +502,91 @@ TEST_F(SdfWorld, refuses_numbers_that_make_no_world) {
   EXPECT_NE(with_box("0 0 1 0 0 0", "nan 1 1"), "");
   EXPECT_NE(with_box("nan 0 1 0 0 0", "1 1 1"), "");
   EXPECT_NE(with_box("1e9 0 1 0 0 0", "1 1 1"), "");
+}
+
+TEST_F(SdfWorld, is_read_as_gazebo_11_reads_what_is_no_xml_and_says_so_with_its_line) {
+  const std::string body = ground_ + "\n<model name=box><pose>0 0 0.5 0 0 0</pose>" + cube_ +
+                           "</model><gui fullscreen=0/>";
+  const std::string file =
+      write("lenient.world", "<sdf version='1.6'><world name='w'>" + body + "</world></sdf>\"");
+  const LoadedWorld loaded = load_world({file});
+  EXPECT_NE(thing_named(loaded.world, "box"), nullptr);
+  EXPECT_TRUE(has_note(loaded, {"line 2", "no quotes around box"}));
+  EXPECT_TRUE(has_note(loaded, {"line 2", "what follows the root element is left out"}));
+  const LoadedWorld plain =
+      load_world({write("comment.world", "<sdf version='1.6'><world name='w'>" + ground_ +
+                                             "</world></sdf>\n<!-- end -->\n")});
+  EXPECT_FALSE(has_note(plain, {"follows the root"}));
+}
+
+TEST_F(SdfWorld, that_is_malformed_is_refused_with_the_fault_and_its_line) {
+  const std::string head = "<sdf version='1.6'>\n<world name='w'>\n";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"<model name='a' name='b'/>", "attribute"},
+      {"<model name='a'>", "not closed"},
+      {"<!-- ", "comment"},
+      {"<pose><![CDATA[0", "CDATA"},
+      {"<% 3.times do %>", "run erb first"}};
+  for (const auto& [body, words] : cases) {
+    const std::string sentence = sentence_of(write("bad.world", head + body + "</world></sdf>"));
+    EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("line "), std::string::npos) << sentence;
+  }
+  EXPECT_NE(sentence_of(write_world(ground_ + model("a", "<box><size>${x} 1 1</size></box>")))
+                .find("run xacro first"),
+            std::string::npos);
+}
+
+TEST_F(SdfWorld, without_its_building_does_not_stand_on_a_rack) {
+  const auto rack = [](const std::string& name, const std::string& x) {
+    return "<model name='" + name + "'><static>1</static><pose>" + x +
+           " 0 0 0 0 0</pose><link name='l'><collision name='a'><pose>0 0 -0.05 0 0 0</pose>"
+           "<geometry><box><size>4 3 0.1</size></box></geometry></collision><collision name='b'>"
+           "<pose>0 1.45 1.5 0 0 0</pose><geometry><box><size>4 0.1 3</size></box></geometry>"
+           "</collision></link></model>";
+  };
+  const std::string hall = "<include><uri>model://hall_that_is_missing</uri></include>";
+  const std::string body = hall + rack("palletRack0", "0") + rack("palletRack1", "9");
+  try {
+    (void)load_leaving_out(body);
+    ADD_FAILURE() << "the bottom of a rack is no floor";
+  } catch (const WorldError& error) {
+    const std::string sentence = error.what();
+    for (const char* words :
+         {"no floor carries more than half", "add <include>", "LEFT OUT", "hall_that_is_missing"})
+      EXPECT_NE(sentence.find(words), std::string::npos) << words << " in: " << sentence;
+  }
+  try {
+    (void)load_leaving_out(hall);
+    ADD_FAILURE();
+  } catch (const WorldError& error) {
+    EXPECT_NE(std::string(error.what()).find("hall_that_is_missing"), std::string::npos);
+  }
+  EXPECT_TRUE(has_note(load_leaving_out(hall + ground_), {"NOTHING STANDS"}));
+}
+
+TEST_F(SdfWorld, on_several_slabs_of_one_height_has_its_floor_on_top_of_them) {
+  std::string body =
+      "<model name='ground_plane'><link name='l'><collision name='c'><geometry><plane>"
+      "<normal>0 0 1</normal></plane></geometry></collision></link></model>";
+  for (const char* at : {"-11 0 0", "0 0 0", "11 0 0"})
+    body += model("asphalt" + std::string(at), "<box><size>10 20 0.1</size></box>",
+                  std::string(at) + " 0 0 0");
+  body += model("barrier", "<box><size>1 1 1</size></box>", "17 11 0.5 0 0 0");
+  EXPECT_NEAR(load(body).world.floor_height, 0.05, 1e-9);
+}
+
+TEST_F(SdfWorld, leaves_out_people_who_are_plates_within_a_slab) {
+  std::string body =
+      ground_ + model("slab", "<box><size>18 18 0.05</size></box>", "0 0 0.025 0 0 0");
+  for (int i = 0; i < 6; ++i)
+    body += model("person" + std::to_string(i), "<box><size>0.35 0.75 0.02</size></box>",
+                  std::to_string(i) + " 0 0.01 0 0 0");
+  body += model("wall", "<box><size>10 0.15 2.5</size></box>", "0 8 1.3 0 0 0");
+  const LoadedWorld loaded = load(body);
+  EXPECT_NEAR(loaded.world.floor_height, 0.05, 1e-9);
+  EXPECT_EQ(thing_named(loaded.world, "person3"), nullptr);
+  EXPECT_TRUE(has_note(loaded, {"'person0'", "within a slab"}));
 }
 
 }  // namespace

@@ -69,6 +69,111 @@ void blank_late_declaration(std::string& content) {
       ' ');
 }
 
+/// Makes XML of what TinyXML takes for it.
+class Repair {
+ public:
+  explicit Repair(const std::string& content) : content_(content) {
+    fixed_.reserve(content.size());
+  }
+
+  void run() {
+    while (at_ < content_.size() && !ended_) {
+      const std::size_t begin = std::min(content_.size(), content_.find('<', at_));
+      copy_to(begin);
+      if (begin == content_.size()) return;
+      if (begins("<!--"))
+        copy_past("-->");
+      else if (begins("<![CDATA["))
+        copy_past("]]>");
+      else if (begins("<?"))
+        copy_past("?>");
+      else if (begins("<!"))
+        copy_past(">");
+      else
+        copy_tag();
+    }
+    note_rest();
+  }
+  [[nodiscard]] const std::string& fixed() const { return fixed_; }
+  [[nodiscard]] std::vector<std::string> repairs() const { return repairs_; }
+  /// A sentence if the file asks for more than a world needs; else empty.
+  [[nodiscard]] const std::string& excess() const { return excess_; }
+
+ private:
+  static constexpr std::size_t kMostAttributes = 1'000;  // tinyxml2 looks through all for each
+
+  [[nodiscard]] bool begins(const char* word) const {
+    return content_.compare(at_, std::char_traits<char>::length(word), word) == 0;
+  }
+  void copy_to(std::size_t end) {
+    fixed_.append(content_, at_, end - at_);
+    at_ = end;
+  }
+  void copy_past(const char* end) {
+    const std::size_t found = content_.find(end, at_);
+    copy_to(found == std::string::npos ? content_.size()
+                                       : found + std::char_traits<char>::length(end));
+  }
+  [[nodiscard]] std::string line() {
+    for (; counted_ < at_; ++counted_) line_ += content_[counted_] == '\n' ? 1U : 0U;
+    return "line " + std::to_string(line_);
+  }
+
+  /// From '<' to '>'.
+  void copy_tag() {
+    const bool closes = begins("</");
+    std::size_t attributes = 0;
+    while (at_ < content_.size() && content_[at_] != '>') {
+      const std::size_t next = content_.find_first_of("=>", at_);
+      copy_to(next == std::string::npos ? content_.size() : next);
+      if (at_ == content_.size() || content_[at_] == '>') break;
+      copy_to(std::min(content_.size(), content_.find_first_not_of(" \t\r\n", at_ + 1)));
+      if (++attributes == kMostAttributes)
+        excess_ = line() + ": an element has " + std::to_string(kMostAttributes) +
+                  " attributes or more; allowed are fewer";
+      if (at_ < content_.size()) copy_value();
+    }
+    const bool empty = at_ > 0 && at_ < content_.size() && content_[at_ - 1] == '/';
+    copy_to(std::min(content_.size(), at_ + 1));
+    depth_ += closes ? -1 : empty ? 0 : 1;
+    ended_ = depth_ <= 0;
+  }
+  void copy_value() {
+    if (content_[at_] == '"' || content_[at_] == '\'') {
+      const std::size_t end = content_.find(content_[at_], at_ + 1);
+      copy_to(end == std::string::npos ? content_.size() : end + 1);
+      return;
+    }
+    const std::size_t end = std::min(content_.size(), content_.find_first_of(" \t\r\n/>\"'<", at_));
+    if (end == at_) return;
+    repairs_.push_back(line() + ": an attribute has no quotes around " +
+                       shortened(printable(content_.substr(at_, end - at_))));
+    fixed_ += '"';
+    copy_to(end);
+    fixed_ += '"';
+  }
+  /// Comments may follow the root.
+  void note_rest() {
+    while (true) {
+      at_ = std::min(content_.size(), content_.find_first_not_of(" \t\r\n", at_));
+      if (!begins("<!--")) break;
+      const std::size_t end = content_.find("-->", at_);
+      at_ = end == std::string::npos ? content_.size() : end + 3;
+    }
+    if (at_ < content_.size())
+      repairs_.push_back(line() + ": what follows the root element is left out");
+  }
+
+  const std::string& content_;
+  std::size_t at_ = 0;
+  std::string fixed_;
+  std::vector<std::string> repairs_;
+  std::string excess_;
+  std::size_t counted_ = 0, line_ = 1;  ///< up to where, and the line there
+  int depth_ = 0;
+  bool ended_ = false;  ///< the root is closed
+};
+
 /// What tinyxml2 calls the fault, in words.
 std::string fault(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
@@ -78,8 +183,16 @@ std::string fault(const tinyxml2::XMLDocument& document) {
       return "its elements are nested too deep";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "an element is not closed, or closed twice";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute has no value, is not closed, or stands twice in its element";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "a text does not end: no element follows it";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment is not closed";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "a CDATA section is not closed";
     default:
-      return "an element, attribute or text is malformed";
+      return "an element's tag is malformed";
   }
 }
 
@@ -113,15 +226,24 @@ std::string XmlElement::place() const { return *file + ", line " + std::to_strin
 XmlElement read_xml(const std::filesystem::path& file) {
   std::string content = content_of(file);
   blank_late_declaration(content);
+  Repair repair(content);
+  repair.run();
+  if (!repair.excess().empty()) throw WorldError(file.string() + ", " + repair.excess());
   tinyxml2::XMLDocument document;
-  document.Parse(content.data(), content.size());
+  document.Parse(repair.fixed().data(), repair.fixed().size());
   if (document.Error() || document.RootElement() == nullptr)
-    throw WorldError(file.string() +
-                     (document.ErrorLineNum() > 0
-                          ? ", line " + std::to_string(document.ErrorLineNum())
-                          : std::string()) +
-                     ": is no XML (" + fault(document) + "); allowed is one whole XML document");
-  return copy_of(*document.RootElement(), std::make_shared<const std::string>(file.string()));
+    throw WorldError(
+        file.string() +
+        (document.ErrorLineNum() > 0 ? ", line " + std::to_string(document.ErrorLineNum())
+                                     : std::string()) +
+        ": this is not XML: " + fault(document) +
+        (content.find("<%") != std::string::npos ? "; it looks like a template of ERB: "
+                                                   "run erb first"
+                                                 : "; allowed is one whole document"));
+  XmlElement root =
+      copy_of(*document.RootElement(), std::make_shared<const std::string>(file.string()));
+  root.repairs = repair.repairs();
+  return root;
 }
 
 void refuse(const XmlElement& element, const std::string& what) {

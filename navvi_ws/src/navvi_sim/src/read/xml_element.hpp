@@ -21,6 +21,7 @@ struct XmlElement {
   std::vector<XmlElement> children;
   std::shared_ptr<const std::string> file;  ///< that it stands in
   int line = 0;                             ///< in that file, from 1
+  std::vector<std::string> repairs = {};    ///< of a root: what was read though it is no XML
 
   /// The first child of that name; null if there is none.
   [[nodiscard]] const XmlElement* child(const std::string& child_name) const;
@@ -33,7 +34,9 @@ struct XmlElement {
   [[nodiscard]] std::string place() const;
 };
 
-/// \throws WorldError for a file that is missing, larger than 20 MB, or no XML
+/// As TinyXML, Gazebo 11's parser: attributes without quotes, and whatever follows the root.
+/// \throws WorldError for a file that is missing, larger than 20 MB, or no XML, with the fault and
+/// its line
 [[nodiscard]] XmlElement read_xml(const std::filesystem::path& file);
 
 /// Wrong is one place of a file, and what may be left out for it is what stands there.
