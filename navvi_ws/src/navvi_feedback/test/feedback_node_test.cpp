@@ -10,8 +10,10 @@
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/TrialEvent.h>
 #include <ros/ros.h>
+#include <sensor_msgs/BatteryState.h>
 #include <sensor_msgs/Joy.h>
 #include <sensor_msgs/JoyFeedbackArray.h>
+#include <std_msgs/Bool.h>
 #include <std_msgs/String.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -185,6 +187,26 @@ TEST_F(FeedbackNode, C6_a_stick_that_comes_too_late_or_by_another_clock_moves_no
   pass(0.5);
   stick_ = 1.0F;
   EXPECT_TRUE(until([this] { return twist_.linear.x > 0.5; })) << "without a stamp";
+}
+
+TEST_F(FeedbackNode, says_that_the_emergency_stop_is_pressed_and_that_the_battery_is_low) {
+  ros::Publisher stops = node_.advertise<std_msgs::Bool>("emergency_stop", 1);
+  ros::Publisher batteries = node_.advertise<sensor_msgs::BatteryState>("battery", 1);
+  ASSERT_TRUE(until([&] { return stops.getNumSubscribers() && batteries.getNumSubscribers(); }));
+  sensor_msgs::BatteryState battery;
+  for (const float unknown : {std::numeric_limits<float>::quiet_NaN(), -1.0F, 0.5F, 80.0F}) {
+    battery.percentage = unknown;
+    batteries.publish(battery);
+    pass(0.2);
+  }
+  EXPECT_FALSE(heard("battery_low") || heard("emergency_stop"));
+  std_msgs::Bool pressed;
+  pressed.data = 1;
+  stops.publish(pressed);
+  EXPECT_TRUE(until([this] { return heard("emergency_stop"); }));
+  battery.percentage = 0.14F;
+  batteries.publish(battery);
+  EXPECT_TRUE(until([this] { return heard("battery_low"); }));
 }
 
 TEST_F(FeedbackNode, P3_obeys_no_parameter_that_is_set_while_it_runs) {

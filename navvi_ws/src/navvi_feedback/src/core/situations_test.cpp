@@ -174,7 +174,7 @@ const std::vector<Row> kTable = {
     {"the pad is pulled out", [](Scene& now) { now.stick = false; }, "controller disconnected", "",
      ""},
     {"no proximity", [](Scene& now) { now.sensed = false; }, "obstacles are not sensed", "", ""},
-    {"no odometry", [](Scene& now) { now.velocity.reset(); }, "the odometry is lost", "", ""},
+    {"no odometry", [](Scene& now) { now.velocity.reset(); }, "the robot does not report its motion", "", ""},
     {"no guidance", [](Scene& now) { now.guided = false; }, "the guidance is lost", "", ""},
     {"the next trial waits",
      [](Scene& now) {

@@ -12,7 +12,7 @@ class LinkCuesTest : public CuePolicyTest {};
 TEST_F(LinkCuesTest, says_which_messages_never_came) {
   now_ = Observation();
   pass(9.0);
-  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "the odometry is lost"}));
+  EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "the robot does not report its motion"}));
 }
 
 TEST_F(LinkCuesTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
@@ -49,7 +49,7 @@ TEST_F(LinkCuesTest, names_only_the_simulator_whichever_of_its_messages_is_misse
 TEST_F(LinkCuesTest, names_the_odometry_where_there_is_no_simulator) {
   under_way();
   now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::lost;
-  EXPECT_EQ(pass(30.0), Texts{"the odometry is lost"});
+  EXPECT_EQ(pass(30.0), Texts{"the robot does not report its motion"});
 }
 
 TEST_F(LinkCuesTest, says_that_obstacles_are_sensed_again) {

@@ -1,5 +1,7 @@
 #include "node/inlets.hpp"
 
+#include <sensor_msgs/BatteryState.h>
+#include <std_msgs/Bool.h>
 #include <std_msgs/String.h>
 
 #include <navvi_types/msg_conversion.hpp>
@@ -17,6 +19,13 @@ using drive::StickAge;
 using navvi_types::from_msg;
 using navvi_types::to_ns;
 
+namespace {
+
+constexpr float kBatteryLow = 0.15F;   // of its charge
+constexpr float kBatteryFull = 0.20F;  // from which it is not low any more
+
+}  // namespace
+
 Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide& guide,
                PersonDevices& devices, Beat beat)
     : node_(node),
@@ -26,7 +35,7 @@ Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide&
       stale_(config.feedback->kStale),
       tf_listener_(tf_, config.odom_frame) {
   subscribe_to_hands();
-  subscribe_to_robot();
+  subscribe_to_robot(config);
   subscribe_to_trials();
 }
 
@@ -34,6 +43,8 @@ void Inlets::complete(senses::Devices& devices) {
   devices.robot = robot();
   devices.asked = asked_;
   if (twin_) devices.states.push_back(CueKind::two_drivers);
+  if (emergency_stop_) devices.states.push_back(CueKind::emergency_stop);
+  if (battery_low_) devices.states.push_back(CueKind::battery_low);
   const StickAge::Late late = stick_age_.late(now());
   if (late == StickAge::Late::slow) devices.states.push_back(CueKind::pad_late);
   if (late == StickAge::Late::too_late) devices.states.push_back(CueKind::pad_too_late);
@@ -88,7 +99,18 @@ void Inlets::receive(drive::InputState joy, InputSource& source) {
   source.receive(joy, time);
 }
 
-void Inlets::subscribe_to_robot() {
+void Inlets::subscribe_to_robot(const NodeConfig& config) {
+  if (!config.emergency_stop.empty())
+    subscribers_.push_back(node_.subscribe<std_msgs::Bool>(
+        config.emergency_stop, 10,
+        [this](const std_msgs::Bool::ConstPtr& msg) { emergency_stop_ = msg->data; }));
+  if (!config.battery.empty())
+    subscribers_.push_back(node_.subscribe<sensor_msgs::BatteryState>(
+        config.battery, 10, [this](const sensor_msgs::BatteryState::ConstPtr& msg) {
+          if (!(msg->percentage >= 0.0F)) return;  // NaN: not measured
+          const float share = msg->percentage > 1.0F ? msg->percentage / 100.0F : msg->percentage;
+          battery_low_ = share < (battery_low_ ? kBatteryFull : kBatteryLow);
+        }));
   // A thing that is felt, hit or to be obeyed does not wait for the next beat.
   listen<navvi_msgs::Proximity>("navvi/proximity", 1, [this](const auto& proximity) {
     const std::chrono::nanoseconds age(to_ns(ros::Time::now()) - proximity.stamp);

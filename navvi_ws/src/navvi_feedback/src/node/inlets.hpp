@@ -46,7 +46,7 @@ class Inlets {
                       const boost::function<void(const ros::MessageEvent<const Msg>&)>& take);
   void subscribe_to_hands();
   void receive(drive::InputState joy, devices::InputSource& source);
-  void subscribe_to_robot();
+  void subscribe_to_robot(const NodeConfig& config);
   void subscribe_to_trials();
   /// base_link in map; nullopt if it is stale or from the future
   [[nodiscard]] std::optional<navvi_types::Pose2> robot();
@@ -64,6 +64,7 @@ class Inlets {
   drive::StickAge::Late logged_ = drive::StickAge::Late::no;
   bool twin_ = false;                            ///< another node drives under the name of this one
   bool runs_ = false;                            ///< a trial
+  bool emergency_stop_ = false, battery_low_ = false;
   std::vector<ros::Subscriber> subscribers_;
 };
 

@@ -31,6 +31,9 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
       "weak, right one to ds4_driver (with its use_standard_msgs)");
   visit(odom_frame, "odom_frame", Any{}, "",
         "frame of odometry, which a localizer places in the map");
+  visit(emergency_stop, "emergency_stop", Any{}, "",
+        "topic with std_msgs/Bool, true while the robot's emergency stop is pressed; empty: none");
+  visit(battery, "battery", Any{}, "", "topic with sensor_msgs/BatteryState; empty: none");
   visit(person, "person", Any{}, "",
         "in whose file settings are kept that are changed while driving; ./navvi run lays what is "
         "in it over the profile's");

@@ -27,6 +27,7 @@ struct NodeConfig : PersonConfig {
   std::string listener = "device";
   std::string motors = "joy_node";
   std::string odom_frame = "odom";
+  std::string emergency_stop, battery;  ///< topics of the robot; empty: none
   std::string person;  ///< name of their PersonFile; empty for none
   std::string record;
 
