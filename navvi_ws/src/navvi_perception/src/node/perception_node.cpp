@@ -7,7 +7,6 @@
 
 #include <boost/algorithm/string.hpp>
 #include <cmath>
-#include <deque>
 #include <memory>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -17,6 +16,7 @@
 
 #include "navvi_perception/see/perception.hpp"
 #include "node/msg_conversion.hpp"
+#include "node/sensor_queue.hpp"
 
 namespace navvi_perception::node {
 namespace {
@@ -27,12 +27,7 @@ using sensor_msgs::PointCloud2;
 constexpr double kRate = 20.0;           // Hz, of proximity
 constexpr double kReport = 1.0;          // s, between two diagnostics
 constexpr int kBegins = 10;              // of these, in which the first sight may come
-constexpr double kAhead = 0.2;           // s, that a stamp may lie in the future
-constexpr double kOld = 1.0;             // s; an older message tells of another place
 constexpr double kFresh = 0.5;           // s without a sight, after which nothing is known
-constexpr double kSweepPatience = 0.2;   // s, that a scan waits for the place of its last ray
-constexpr double kRounding = 1e-3;       // s, of the stamps of transforms
-constexpr std::size_t kMostWaiting = 10;  // messages of a sensor that wait for their transforms
 
 struct NodeConfig {
   see::PerceptionConfig core;
@@ -106,17 +101,9 @@ class PerceptionNode {
   PerceptionNode& operator=(const PerceptionNode&) = delete;
 
  private:
-  /// A scan or a cloud that waits until transforms tell where its sensor and the robot were.
-  struct Waiting {
-    std_msgs::Header header;
-    double sweep = 0.0;  ///< s, from the first ray to the last
-    ros::Time came;
-    LaserScan::ConstPtr scan;
-    PointCloud2::ConstPtr cloud;
-  };
   struct Sensor {
     std::string topic;
-    std::deque<Waiting> waiting;
+    SensorQueue queue;
     std::int64_t last = 0;   ///< ns, its last stamp
     bool sees_body = false;  ///< its own robot, which was logged
   };
@@ -128,9 +115,9 @@ class PerceptionNode {
     for (const std::string& topic : names) {
       if (topic.empty()) continue;
       const std::size_t sensor = sensors_.size();
-      sensors_.emplace_back().topic = topic;
+      sensors_.push_back({topic, SensorQueue(buffer_, config_.map_frame, config_.base_frame)});
       subscribers_.push_back(navvi_types::subscribe<Message>(
-          node, topic, kMostWaiting, from_msg,
+          node, topic, SensorQueue::kMost, from_msg,
           [this, sensor](const typename Message::ConstPtr& msg) { receive(sensor, msg); }, {},
           [this, topic](const std::string& why) { count(topic, why); }));
     }
@@ -147,63 +134,23 @@ class PerceptionNode {
   }
 
   void wait(std::size_t sensor, Waiting one) {
-    const double age = (one.came - one.header.stamp).toSec();
-    if (age < -kAhead)
-      return refuse(sensor, "its stamp is " + std::to_string(-age) +
-                                " s ahead of this clock: keep all computers' clocks together");
-    if (age > kOld)
-      return refuse(sensor, "its stamp is " + std::to_string(age) +
-                                " s old: a delay on the way, or clocks that differ");
-    one.header.frame_id = navvi_types::without_slash(one.header.frame_id);
-    std::deque<Waiting>& queue = sensors_[sensor].waiting;
-    if (queue.size() == kMostWaiting) drop_first(sensor);
-    queue.push_back(std::move(one));
+    const std::string why = sensors_[sensor].queue.push(std::move(one));
+    if (!why.empty()) refuse(sensor, why);
     serve();
-  }
-
-  void drop_first(std::size_t sensor) {
-    const Waiting& one = sensors_[sensor].waiting.front();
-    std::string why;
-    if (buffer_.canTransform(config_.map_frame, one.header.frame_id, one.header.stamp, &why))
-      (void)buffer_.canTransform(config_.map_frame, config_.base_frame, one.header.stamp, &why);
-    refuse(sensor, "no transform leads from frame '" + one.header.frame_id + "' and from '" +
-                       config_.base_frame + "' to '" + config_.map_frame + "' in time: " + why);
-    sensors_[sensor].waiting.pop_front();
-  }
-
-  [[nodiscard]] bool is_placed(const std::string& frame, const ros::Time& time) const {
-    return buffer_.canTransform(config_.map_frame, frame, time) &&
-           buffer_.canTransform(config_.map_frame, config_.base_frame, time);
   }
 
   /// Takes what need not wait any more, in the order of each sensor.
   void serve() {
     for (std::size_t sensor = 0; sensor < sensors_.size(); ++sensor)
-      while (!sensors_[sensor].waiting.empty() && take_first(sensor)) {
+      while (const auto next = sensors_[sensor].queue.next(ros::Time::now())) {
+        sight::Sight sight;
+        const Waiting& one = next->one;
+        if (!next->why.empty())
+          refuse(sensor, next->why);
+        else if (begin(one.header, sensor, sight) &&
+                 (one.scan ? read(*one.scan, next->whole, sight) : read(*one.cloud, sight)))
+          take(sight);
       }
-  }
-
-  /// A scan waits for the place of its last ray where that comes soon; else all its rays count as
-  /// measured at its stamp. \return false if it waits on
-  bool take_first(std::size_t sensor) {
-    const Waiting& first = sensors_[sensor].waiting.front();
-    const double waited = std::abs((ros::Time::now() - first.came).toSec());
-    const bool placed = is_placed(first.header.frame_id, first.header.stamp);
-    if (!placed && waited > kOld) {
-      drop_first(sensor);
-      return true;
-    }
-    const bool whole =
-        first.sweep == 0.0 ||
-        is_placed(first.header.frame_id,
-                  first.header.stamp + ros::Duration(first.sweep + kRounding));
-    if (!placed || (!whole && waited < kSweepPatience)) return false;
-    const Waiting one = first;
-    sensors_[sensor].waiting.pop_front();
-    sight::Sight sight;
-    if (!begin(one.header, sensor, sight)) return true;
-    if (one.scan ? read(*one.scan, whole, sight) : read(*one.cloud, sight)) take(sight);
-    return true;
   }
 
   /// \param whole  the sensor's place is known for all of the sweep
@@ -274,7 +221,7 @@ class PerceptionNode {
     if (!eye || !robot) return false;
     sight.stamp = navvi_types::to_ns(header.stamp);
     std::int64_t& last = sensors_[sensor].last;
-    if ((navvi_types::from_ns(last) - header.stamp).toSec() > kOld) {
+    if ((navvi_types::from_ns(last) - header.stamp).toSec() > SensorQueue::kOld) {
       ROS_WARN("Time jumped back; what was seen is forgotten.");
       perception_ = std::make_unique<see::Perception>(config_.core, prior_);
       for (Sensor& one : sensors_) one.last = 0;
@@ -354,7 +301,7 @@ class PerceptionNode {
   [[nodiscard]] bool sees(const ros::Time& now) const {
     const double since = (now - taken_).toSec();
     const double age = (now - navvi_types::from_ns(sight_)).toSec();
-    return sight_ != 0 && std::abs(since) <= kFresh && std::abs(age) <= kOld;
+    return sight_ != 0 && std::abs(since) <= kFresh && std::abs(age) <= SensorQueue::kOld;
   }
 
   void tell_what_is_near() {
