@@ -24,8 +24,9 @@ constexpr double kLongestScan = 1.0;  // s
 
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
+/// Some drivers have a range_min of 0, and mean no measurement by 0.
 bool measured(const sensor_msgs::LaserScan& scan, float range) {
-  return range >= scan.range_min && range < scan.range_max;
+  return range > 0.0F && range >= scan.range_min && range < scan.range_max;
 }
 
 const sensor_msgs::PointField* field_of(const sensor_msgs::PointCloud2& cloud, const char* name) {

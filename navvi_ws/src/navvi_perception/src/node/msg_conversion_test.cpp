@@ -57,6 +57,14 @@ TEST(MsgConversion, reads_rays_without_a_return_as_rep_117_or_as_the_driver_mean
   EXPECT_EQ(read(ranges, true), ".cccccc??") << "what is too near is never free";
 }
 
+TEST(MsgConversion, takes_0_for_no_measurement_also_where_range_min_is_0) {
+  sensor_msgs::LaserScan nearest = scan();
+  nearest.range_min = 0.0F;
+  nearest.ranges = {0.0F, 0.01F};
+  EXPECT_TRUE(std::isnan(plain(nearest, false).ranges[0]));
+  EXPECT_EQ(plain(nearest, false).ranges[1], 0.01F);
+}
+
 TEST(MsgConversion, takes_a_scan_with_rays_that_met_nothing_or_have_no_measurement) {
   const auto good = from_msg(scan());
   ASSERT_TRUE(good);
