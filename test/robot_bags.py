@@ -1,0 +1,163 @@
+"""Records of real robots, which others published: where they are, what they lack, and how they are played into robot.launch.
+
+usage: robot_bags.py FOLDER [NAME...]: fetches those that FOLDER lacks, compares their hashes, converts those of ROS 2 (rosbags of PyPI),
+and says which are there. `NAVVI_BAGS=FOLDER ./navvi test robot_bags` plays them.
+"""
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import time
+import urllib.request
+from collections import namedtuple
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+FOLDER = pathlib.Path(os.environ.get("NAVVI_BAGS", pathlib.Path.home() / ".cache/navvi/bags"))
+TOPICS = ["/scan", "/odom", "/tf", "/tf_static"]  # of a bag of ROS 2
+
+# source: owner/repository@commit; fixed: "PARENT CHILD X Z" of each transform that the bag lacks; words: of robot.launch.
+Bag = namedtuple("Bag", "name source path sha256 licence robot fixed words")
+BASE = ["map odom 0 0", "odom base_link 0 0"]
+NEATO = ["radius:=0.2", "perception_parameters:={no_return: free}"]
+DATMO, OLIN = "kostaskonkk/datmo@25aaf8a3a376f6fd886715178a93e8d2df8b2214", "lhwitten/comprobo_warmup@bc5d3eb5625cc11d341474ce4750230a5f4171ca"
+LEGS = "angusleigh/leg_tracker@e6cbb2bba218e0684714a08972a7bdfa99118e3c"
+BAGS = [
+    Bag("neato_wall", OLIN, "warmup_project/warmup_project/bags/wall_bag/wall_bag_0.db3",
+        "7068afa5ee8aeed5e6b6aaab2222d3cafdedd05f884b55cb2082dca38b1daa9a", "none stated", "Neato, LDS, ROS 2",
+        ["map odom 0 0"], NEATO),
+    Bag("neato_person", OLIN, "warmup_project/warmup_project/bags/person_bag/person_bag_0.db3",
+        "b3f74aedd1e20fc65c182fdeff0748bb33526eeed623a911646910cf14c67399", "none stated", "Neato, LDS, ROS 2",
+        ["map odom 0 0"], NEATO),
+    Bag("turtlebot4", "Moampane/robot_localization@3862738e6082efb4f33ec90385e5559d20a2d1e7", "bags/macfirst_floor_take_2/macfirst_floor_take_2_0.db3",
+        "9cc922b4a9cf1f1760111269afad51759ea712b7f36e743a3566c6d42d8df2e9", "none stated", "TurtleBot 4, RPLidar A1, ROS 2",
+        ["map odom 0 0"], ["radius:=0.2"]),
+    Bag("cars_overtake", DATMO, "examples/overtakes.bag",
+        "fbd89a42e1902786acd9e90b9168855cf04216e654ab690140d657ac1efbe235", "BSD", "cars of 1:10, RPLidar",
+        [*BASE, "base_link laser 0.1 0.2"], ["radius:=0.2"]),
+    Bag("cars_parallel", DATMO, "examples/parallel.bag",
+        "281c0205c9d14e0f5ed7561e445674baf53371571c69732576e2533d98df6600", "BSD", "cars of 1:10, RPLidar",
+        [*BASE, "base_link laser 0.1 0.2"], ["radius:=0.2"]),
+    Bag("two_cars", DATMO, "examples/two_robots.bag",
+        "3844dc4e68348e2d42b863fd909308d4a2195728128020924c9e672623fda4cf", "BSD", "cars of 1:10, RPLidar",
+        BASE, ["radius:=0.2"]),
+    Bag("matcher", "CCNYRoboticsLab/scan_tools@219c31965ff904c59072389d1873a21bcb433e81", "laser_scan_matcher/demo/demo.bag",
+        "3b845caa131c4f7e9def4094e8a25c4d4e382a40d65fa127f0400d82b3d935ce", "BSD", "Hokuyo URG in the hand",
+        [*BASE, "base_link laser 0 0.3"], []),
+    Bag("legs", LEGS, "rosbags/demos/demo_stationary_simple_environment.bag",
+        "3f3a4132452fc25afcdb9c4d2f610c1babb05ebbe491297da1460cbf5b58e3db", "BSD", "Hokuyo URG that stands, people",
+        [*BASE, "base_link laser 0 0.3"], []),
+    Bag("neato_drive", "yycho0108/comprobo_warmup_project@b5f5e2da294c11ac755c2e9404122217960a581c", "warmup_project/bags/test_drive.bag",
+        "c4f418dd0995b8af57908a2fc6c4efda87768414951c30fd7a9547f51c70dd56", "none stated", "Neato XV-11, LDS",
+        ["map odom 0 0"], NEATO),
+    Bag("spider", "spiderkiller13/obstacle_detector@9f637df0413c3b5758e9fa856dd37df95b680206", "rosbag/test.bag",
+        "e67b1d8a0bfb386c9f08997844acc8af79c90229f978c54e494c14b723585f5d", "BSD", "depth cameras, merged to a scan",
+        [], ["scan:=/zed/scan_merged"]),
+    Bag("two_scanners", "tysik/obstacle_detector@bd59d405b2284f05c46f7b99cb9cb4247934e2ff", "resources/scans_demo.bag",
+        "7cda65e31651605e7b3aa094b19d617a4c6b5fd5391f46601b3b0a09d97f6d30", "BSD", "two Hokuyos, front and back",
+        [*BASE, "base_link front_scanner 0.2 0.2", "base_link rear_scanner -0.2 0.2"],
+        ["scan:=/front_scan,/rear_scan", "radius:=0.3"]),
+]
+SECONDS, PACE = 15.0, 0.5  # of each that are played, and how fast: others may use the machine, and ages are judged by the bag's clock
+FRAMES = """
+import sys, time, rospy
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
+rospy.init_node("fixed_frames", disable_rostime=True)
+frames = []
+for words in sys.argv[1:]:
+    parent, child, x, z = words.split()
+    frame = TransformStamped(child_frame_id=child)
+    frame.header.frame_id = parent
+    frame.transform.translation.x, frame.transform.translation.z, frame.transform.rotation.w = float(x), float(z), 1.0
+    frames.append(frame)
+publisher = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+publisher.publish(TFMessage(frames))
+rospy.spin()
+"""
+# Until the end of its input; a scan is used where obstacles of its stamp come.
+COUNT = """
+import json, sys, time, rospy
+from navvi_msgs.msg import Cue, Obstacles, Proximity
+from sensor_msgs.msg import LaserScan
+rospy.init_node("count")
+scans, used, near, said = set(), set(), [], []
+subscribers = [rospy.Subscriber(topic, LaserScan, lambda scan: scans.add(scan.header.stamp.to_nsec())) for topic in sys.argv[1:]]
+subscribers += [rospy.Subscriber("/navvi/obstacles", Obstacles, lambda message: used.add(message.header.stamp.to_nsec())),
+                rospy.Subscriber("/navvi/proximity", Proximity, lambda _: near.append(time.monotonic())),
+                rospy.Subscriber("/navvi/cues", Cue, lambda cue: said.append(cue.text) if cue.text and cue.stage == 1 else None)]
+sys.stdin.read()
+placed = [stamp for stamp in scans if used and min(used) <= stamp <= max(used)]
+print(json.dumps({"scans": len(scans), "share": len(used & scans) / max(1, len(placed)), "seconds": near[-1] - near[0] if near else 0.0,
+                  "near": len(near), "hole": max([b - a for a, b in zip(near, near[1:])], default=0.0), "said": sorted(set(said))}))
+"""
+
+
+def hash_of(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def fetch(bag, folder):
+    """The file of a bag, of the folder where it is there; None where it cannot be had."""
+    file = folder / (bag.name + pathlib.Path(bag.path).suffix)
+    if not file.exists():
+        url = f"https://raw.githubusercontent.com/{bag.source.replace('@', '/')}/{bag.path}"
+        try:
+            with urllib.request.urlopen(url, timeout=60) as page:
+                file.write_bytes(page.read())
+        except OSError as problem:
+            print(f"{bag.name}: {url} cannot be fetched: {problem}", file=sys.stderr)
+    if not file.exists():
+        return None
+    assert hash_of(file) == bag.sha256, f"{file} has another hash than {bag.sha256}: remove it"
+    return file if file.suffix == ".bag" else converted(file)
+
+
+def converted(file):
+    """The bag of ROS 1 that holds what a database of ROS 2 does."""
+    bag = file.with_suffix(".bag")
+    if not bag.exists():
+        result = subprocess.run(["python3", "-m", "rosbags.convert", "--src", file, "--dst", bag, "--include-topic", *TOPICS], capture_output=True, text=True)
+        if result.returncode:
+            bag.unlink(missing_ok=True)
+            print(f"{file.name} is not converted (\"pip install rosbags\" brings the converter): {result.stderr[-200:]}", file=sys.stderr)
+            return None
+    return bag
+
+
+def play(bag, file, env, out):
+    """What came of it in `robot.launch rehearse:=true`, as COUNT prints it."""
+    python, quiet = ["/usr/bin/python3", "-c"], {"env": env, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    subprocess.run(["rosparam", "set", "use_sim_time", "true"], env=env, check=True)
+    scans = next((word.split(":=")[1].split(",") for word in bag.words if word.startswith("scan:=")), ["/scan"])
+    with open(out / f"{bag.name}.log", "w") as log:
+        launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/robot.launch"), "rehearse:=true", "input:=topic", "speech:=false", "rviz:=false", "feedback_parameters:={listener: topic}",
+                                   f"out:={out}", *bag.words], env=env, stdout=log, stderr=log)
+        frames = subprocess.Popen([*python, FRAMES, *bag.fixed], **quiet)
+        count = subprocess.Popen([*python, COUNT, *scans], env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        try:
+            deadline = time.monotonic() + 60.0
+            while "/perception_node" not in subprocess.run(["rostopic", "info", scans[0]], env=env, capture_output=True, text=True).stdout:
+                assert time.monotonic() < deadline, f"perception_node did not start, see {log.name}"
+            time.sleep(3.0)
+            subprocess.run(["rosbag", "play", "-q", "--clock", "-u", str(SECONDS), "-r", str(PACE), str(file)], check=True, timeout=120, **quiet)
+            return json.loads(count.communicate("", timeout=20)[0])
+        finally:
+            for process in (launch, frames, count):
+                process.terminate()
+                process.wait(20)
+
+
+def row(bag, found):
+    rate = found["near"] / found["seconds"] if found["seconds"] else 0.0
+    words = "; ".join(f"\"{text}\"" for text in found["said"]) or "nothing"
+    return f"| {bag.name} | {bag.robot} | {found['scans']} | {100 * found['share']:.0f} % | {rate:.1f} | {found['hole']:.2f} s | {words} |"
+
+
+if __name__ == "__main__":
+    folder = pathlib.Path(sys.argv[1])
+    folder.mkdir(parents=True, exist_ok=True)
+    for one in BAGS:
+        if not sys.argv[2:] or one.name in sys.argv[2:]:
+            print(f"{one.name}: {fetch(one, folder) or 'is not here'}")
