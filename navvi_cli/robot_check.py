@@ -73,7 +73,7 @@ def sensor(robot, part, name):
         return Line(part, WRONG, found, todo)
     lost = total - held["measured"] - held["+inf"] - held["below range_min"]
     if part == "scan" and not free and not held["+inf"] and lost > 0.05 * total:
-        return Line(part, LOOK, found, "in the open all rays are such, and sensing is then lost, unless perception/no_return:=free; doc/robot.md has a table of drivers")
+        return Line(part, LOOK, found, "in the open all rays are such, and sensing is lost, unless perception/no_return:=free (doc/robot.md, table of drivers)")
     return Line(part, WELL, found)
 
 
@@ -97,7 +97,8 @@ def transforms(robot):
             todo.append(f"{parent} -> {child} is missing: it comes from {maker}")
             continue
         moving = [frames.edges[name] for name in up[:up.index(parent)] if not frames.edges[name].fixed]
-        found.append(said(f"{parent} -> {child}", min((edge.times for edge in moving), key=lambda times: times.rate)) if moving else f"{parent} -> {child}, fixed")
+        slowest = min((edge.times for edge in moving), key=lambda times: times.rate, default=None)
+        found.append(said(f"{parent} -> {child}", slowest) if slowest else f"{parent} -> {child}, fixed")
         for edge in moving:
             nodes = sorted(edge.publishers)
             several = f"it comes from {' and '.join(nodes)}, and one is allowed" if len(nodes) > 1 else ""
@@ -176,4 +177,6 @@ def wheels(robot):
     if not takers:
         return Line("wheels", WRONG, f"nothing takes {name}", "start the driver of the wheels, or give its topic by wheels:=")
     found = f"{name}, taken by {', '.join(takers)}"
-    return Line("wheels", WRONG, f"{found}, published by {', '.join(others)}", "end these: relay_node alone may move the wheels") if others else Line("wheels", WELL, found)
+    if others:
+        return Line("wheels", WRONG, f"{found}, published by {', '.join(others)}", "end these: relay_node alone may move the wheels")
+    return Line("wheels", WELL, found)

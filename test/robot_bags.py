@@ -132,8 +132,8 @@ def play(bag, file, env, out):
     subprocess.run(["rosparam", "set", "use_sim_time", "true"], env=env, check=True)
     scans = next((word.split(":=")[1].split(",") for word in bag.words if word.startswith("scan:=")), ["/scan"])
     with open(out / f"{bag.name}.log", "w") as log:
-        launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/robot.launch"), "rehearse:=true", "input:=topic", "speech:=false", "rviz:=false", "feedback_parameters:={listener: topic}",
-                                   f"out:={out}", *bag.words], env=env, stdout=log, stderr=log)
+        launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/robot.launch"), "rehearse:=true", "input:=topic", "speech:=false", "rviz:=false",
+                                   "feedback_parameters:={listener: topic}", f"out:={out}", *bag.words], env=env, stdout=log, stderr=log)
         frames = subprocess.Popen([*python, FRAMES, *bag.fixed], **quiet)
         count = subprocess.Popen([*python, COUNT, *scans], env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         try:

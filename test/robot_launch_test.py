@@ -151,11 +151,13 @@ def test_the_robots_place_is_remembered_by_buttons_and_ears_and_another_by_a_cli
     assert places == PLACES
 
 
-def test_the_names_of_the_robots_frames_reach_who_reads_them():
+def test_the_robots_frames_and_radius_reach_who_reads_them():
     words = subprocess.run(["roslaunch", "--dump-params", str(ROOT / "launch/robot.launch"), "map_frame:=tb3/map", "odom_frame:=tb3/odom",
-                            "base_frame:=tb3/base_footprint"], capture_output=True, text=True, timeout=60).stdout
+                            "base_frame:=tb3/base_footprint", "radius:=0.2", "nav_parameters:={mesh: {robot_radius: 0.25}}"],
+                           capture_output=True, text=True, timeout=60).stdout
     for name in "nav_node/map_frame: tb3/map", "perception_node/map_frame: tb3/map", "nav_node/base_frame: tb3/base_footprint", \
-            "perception_node/base_frame: tb3/base_footprint", "trial_node/odom_frame: tb3/odom":
+            "perception_node/base_frame: tb3/base_footprint", "perception_node/robot_radius: 0.2", "nav_node/mesh/robot_radius: 0.25", \
+            *(f"{node}_node/odom_frame: tb3/odom" for node in ("trial", "nav", "perception", "feedback")):
         assert f"/{name}\n" in words
 
 
