@@ -119,7 +119,7 @@ def test_a_command_is_taken(page, before, line, papers, monkeypatch):
                 continue
             if words[0] in LAUNCHES:
                 words_for(LaunchFile(LAUNCHES[words[0]]), [word for word in args.words if words[0] == "run" or not word.startswith("out:=")])
-            if words[0] == "batch" and not args.from_trial:
+            if words[0] == "batch":
                 assert batch.trials_of(args) and batch.shard_of(args.shard)
     for name, words in re.findall(r"^roslaunch navvi (\w+\.launch)(.*)", line):
         known = {arg for path in [ROOT / "launch" / name] for arg in re.findall(r'<arg name="(\w+)"', path.read_text())}

@@ -63,7 +63,7 @@ VisibilityGraph::VisibilityGraph(const mesh::Mesh& mesh) : mesh_(mesh) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     for (std::size_t j = i + 1; j < nodes_.size(); ++j) {
       if (!sees(nodes_[i], nodes_[j])) continue;
-      const double away = navvi_nav::distance(nodes_[i].at, nodes_[j].at);
+      const double away = navvi_floor::distance(nodes_[i].at, nodes_[j].at);
       nodes_[i].seen.emplace_back(static_cast<int>(j), away);
       nodes_[j].seen.emplace_back(static_cast<int>(i), away);
     }
@@ -169,7 +169,7 @@ std::vector<double> VisibilityGraph::reach(Point from) const {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (nodes_[i].at == from ||
         (leaves(nodes_[i].vertex, from - nodes_[i].at) && visible(from, nodes_[i].at)))
-      out[i] = navvi_nav::distance(from, nodes_[i].at);
+      out[i] = navvi_floor::distance(from, nodes_[i].at);
   }
   return out;
 }
@@ -206,7 +206,7 @@ std::vector<std::vector<double>> VisibilityGraph::distances(
       if (mesh_.polygon(place.polygon).component != mesh_.polygon(places[k].polygon).component)
         continue;
       if (visible(place.point, places[k].point))
-        found = navvi_nav::distance(place.point, places[k].point);
+        found = navvi_floor::distance(place.point, places[k].point);
       for (std::size_t i = 0; i < best.size(); ++i)
         found = std::min(found, best[i] + reached[k][i]);
     }
