@@ -52,7 +52,7 @@ class GuideCost {
   [[nodiscard]] double of(const Path& path) const;
   /// True if the path costs less than so many metres, as far as may be measured.
   [[nodiscard]] bool less(const Path& path, double than) const;
-  /// m: what of this is for less clearance than config().tight.
+  /// m: what of this is for less clearance than kTight.
   [[nodiscard]] double tight(const Path& path) const;
   /// The corners from which the path, its first leg left out, leads over the mesh to its end.
   [[nodiscard]] Path known_end(const Path& path) const;
