@@ -13,14 +13,15 @@ from types import SimpleNamespace
 import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-from navvi_cli.commands import batch  # noqa: E402
-from navvi_cli.say import Failure  # noqa: E402
+sys.path[:0] = [str(ROOT), str(ROOT / "navvi_ws/src/navvi_people/python")]
+from navvi_cli.commands import batch as command  # noqa: E402
+from navvi_people import batch  # noqa: E402
+from navvi_people.batch import BatchError  # noqa: E402
 
 STAND_IN = """#!/bin/sh
 case "$*" in --check*unknown*) echo 'navvi: the key "unknown" is unknown' >&2; exit 2 ;; --check*) exit 0 ;; esac
-# The row is a function of all that the trial is.
-sum=$(echo "$@" | cksum)
+# The row is a function of all that the trial is, wherever its record is kept.
+sum=$(echo "$@" | sed 's/ --out=[^ ]*//' | cksum)
 sum=${{sum%% *}}
 for word in "$@"; do
   case $word in
@@ -30,9 +31,19 @@ for word in "$@"; do
 done
 sleep {seconds}
 [ "$seed" != {broken} ] || {{ echo "the trial crashed" >&2; exit 2; }}
-echo world,seed,result,time,driven,shortest,hits,why
-echo "$world,$seed,\\"reached\\",\\"$sum\\",\\"20.0\\",\\"18.0\\",\\"shelf 2 worker 1\\",\\"following, shelf\\""
+echo world,seed,result,elapsed_s,contacts,still_about
+echo "$world,$seed,\\"reached\\",\\"$sum\\",\\"3\\",\\"following, shelf\\""
 """
+
+
+FIGURES = [{"name": "elapsed_s", "unit": "s", "meaning": "from start to goal", "source": ""},
+           {"name": "contacts", "unit": "", "meaning": "collisions", "source": "the paper"},
+           {"name": "result", "unit": "", "meaning": "reached or not", "source": ""},
+           {"name": "still_about", "unit": "", "meaning": "what was about", "source": ""}]
+
+
+def run_batch(program, args):
+    return batch.run_batch(program, FIGURES, args)
 
 
 def stand_in(folder, seconds=0.0, broken="none"):
@@ -44,31 +55,31 @@ def stand_in(folder, seconds=0.0, broken="none"):
 
 def args_of(out, **more):
     values = {"worlds": "easy,busy", "seeds": "1-3", "people": "able,drawn:1-2", "conditions": "default,words_alone", "limit": 60,
-              "jobs": 1, "shard": "1/1", "tell": 100.0, "cache": 512, "out": str(out)}
+              "records": "failed", "jobs": 1, "shard": "1/1", "tell": 100.0, "cache": 512, "out": str(out)}
     return SimpleNamespace(**{**values, **more})
 
 
 def test_a_batch_has_a_row_for_each_world_seed_person_and_condition(tmp_path):
-    assert batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a")) == 0
+    assert run_batch(stand_in(tmp_path), args_of(tmp_path / "a")) == 0
     lines = (tmp_path / "a/trials.csv").read_text().splitlines()
     assert len(lines) == 1 + 2 * 3 * 3 * 2
-    assert lines[0].startswith("trial,world,seed,person,person_seed,condition,contacts,spl,per_100m,result,time")
+    assert lines[0].startswith("trial,world,seed,person,person_seed,condition,result,elapsed_s,contacts,still_about,over_sighted")
     assert [line.split(",")[0] for line in lines[1:]] == [str(number) for number in range(36)]
-    assert lines[1].split(",")[6:9] == ["3", "0.900", "15.00"]
     units = json.loads((tmp_path / "a/trials.json").read_text())
     assert list(units) == lines[0].split(",") and all(units.values())
+    assert units["elapsed_s"] == {"Description": "from start to goal", "Units": "s"} and units["contacts"]["Source"] == "the paper"
 
 
 def test_a_world_of_any_name_is_a_row_and_a_torn_one_is_run_again(tmp_path):
     folder, given = tmp_path / "a", {"worlds": "one\u2028two.sdf,caf\udce9.sdf,\u00e9.sdf", "seeds": "1", "people": "able", "conditions": "default"}
-    assert batch.run_batch(stand_in(tmp_path), args_of(folder, **given)) == 0
+    assert run_batch(stand_in(tmp_path), args_of(folder, **given)) == 0
     whole, rows = (folder / "trials.csv").read_bytes(), folder / "rows-1-of-1.csv"
     assert whole.count(b"\n") == 4 and b"caf\xe9.sdf" in whole
     rows.write_bytes(rows.read_bytes().partition("\u00e9".encode())[0] + b"\xc3")  # killed amid a letter
-    assert batch.run_batch(stand_in(tmp_path), args_of(folder, **given)) == 0
+    assert run_batch(stand_in(tmp_path), args_of(folder, **given)) == 0
     assert (folder / "trials.csv").read_bytes() == whole
-    with pytest.raises(Failure, match="line break"):
-        batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "b", worlds="a\nb"))
+    with pytest.raises(BatchError, match="line break"):
+        run_batch(stand_in(tmp_path), args_of(tmp_path / "b", worlds="a\nb"))
 
 
 def test_a_full_disk_names_the_file(tmp_path, monkeypatch):
@@ -76,7 +87,7 @@ def test_a_full_disk_names_the_file(tmp_path, monkeypatch):
         raise OSError(28, "No space left on device")
     monkeypatch.setattr(batch.os, "fsync", full)
     with pytest.raises(OSError) as problem:
-        batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a"))
+        run_batch(stand_in(tmp_path), args_of(tmp_path / "a"))
     assert problem.value.filename == str(tmp_path / "a/batch.json")
 
 
@@ -84,7 +95,7 @@ def test_trials_keep_as_much_of_worlds_as_asked_for(tmp_path):
     program = tmp_path / "told"
     program.write_text(stand_in(tmp_path).read_text().replace("# The row", f'echo "$@" >> {tmp_path}/words\n# The row'))
     program.chmod(0o755)
-    assert batch.run_batch(program, args_of(tmp_path / "a", cache=64)) == 0
+    assert run_batch(program, args_of(tmp_path / "a", cache=64)) == 0
     words = (tmp_path / "words").read_text().splitlines()
     assert len(words) == 36 and all("--cache=64" in line.split() for line in words)
 
@@ -95,21 +106,21 @@ def test_each_world_has_a_person_of_its_own_where_no_seeds_are_asked_for(tmp_pat
 
 
 def test_a_trial_is_compared_with_that_of_the_same_hand_led_by_eyes(tmp_path):
-    assert batch.run_batch(stand_in(tmp_path), args_of(tmp_path / "a", conditions="sighted,default")) == 0
+    assert run_batch(stand_in(tmp_path), args_of(tmp_path / "a", conditions="sighted,default")) == 0
     with open(tmp_path / "a/trials.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     for sighted, default in zip(rows[::2], rows[1::2]):
         assert (sighted["condition"], default["condition"]) == ("sighted", "default") and sighted["over_sighted"] == "1.000"
-        assert float(default["over_sighted"]) == pytest.approx(float(default["time"]) / float(sighted["time"]), abs=0.001)
+        assert float(default["over_sighted"]) == pytest.approx(float(default["elapsed_s"]) / float(sighted["elapsed_s"]), abs=0.001)
 
 
 def test_jobs_and_shards_change_no_byte(tmp_path):
     program = stand_in(tmp_path)
-    assert batch.run_batch(program, args_of(tmp_path / "one")) == 0
-    assert batch.run_batch(program, args_of(tmp_path / "jobs", jobs=4)) == 0
+    assert run_batch(program, args_of(tmp_path / "one")) == 0
+    assert run_batch(program, args_of(tmp_path / "jobs", jobs=4)) == 0
     for shard in ("2/3", "3/3"):
-        assert batch.run_batch(program, args_of(tmp_path / "shards", shard=shard)) == 1, "others are missing"
-    assert batch.run_batch(program, args_of(tmp_path / "shards", shard="1/3")) == 0
+        assert run_batch(program, args_of(tmp_path / "shards", shard=shard)) == 1, "others are missing"
+    assert run_batch(program, args_of(tmp_path / "shards", shard="1/3")) == 0
     for folder in ("jobs", "shards"):
         for name in ("trials.csv", "trials.json"):
             assert (tmp_path / folder / name).read_bytes() == (tmp_path / "one" / name).read_bytes()
@@ -117,8 +128,8 @@ def test_jobs_and_shards_change_no_byte(tmp_path):
 
 def test_a_batch_that_is_killed_twice_loses_and_doubles_no_trial(tmp_path):
     program = stand_in(tmp_path, 0.02)
-    code = ("import sys; sys.path[:0] = [%r, %r]; import batch_test; from navvi_cli.commands import batch; "
-            "batch.run_batch(%r, batch_test.args_of(%r, jobs=2))" % (str(ROOT), str(ROOT / "test"), str(program), str(tmp_path / "killed")))
+    code = ("import sys; sys.path[:0] = [%r, %r]; import batch_test; "
+            "batch_test.run_batch(%r, batch_test.args_of(%r, jobs=2))" % (str(ROOT), str(ROOT / "test"), str(program), str(tmp_path / "killed")))
     rows = tmp_path / "killed/rows-1-of-1.csv"
     for least in (5, 15):
         process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
@@ -130,9 +141,9 @@ def test_a_batch_that_is_killed_twice_loses_and_doubles_no_trial(tmp_path):
     with open(rows, "ab") as file:
         file.write(b"35,busy,3,dra")  # torn
     before = rows.read_bytes().rpartition(b"\n")[0]
-    assert batch.run_batch(program, args_of(tmp_path / "killed")) == 0
+    assert run_batch(program, args_of(tmp_path / "killed")) == 0
     assert rows.read_bytes().startswith(before)
-    assert batch.run_batch(program, args_of(tmp_path / "whole")) == 0
+    assert run_batch(program, args_of(tmp_path / "whole")) == 0
     assert (tmp_path / "killed/trials.csv").read_bytes() == (tmp_path / "whole/trials.csv").read_bytes()
     assert rows.read_bytes().count(b"\n") == 36
 
@@ -146,37 +157,52 @@ def test_a_batch_that_breaks_off_begins_no_trial_whose_row_nobody_would_write(tm
         raise OSError(28, "No space left on device")
     monkeypatch.setattr(batch.Rows, "append", full)
     with pytest.raises(OSError):
-        batch.run_batch(program, args_of(tmp_path / "a", jobs=2))
+        run_batch(program, args_of(tmp_path / "a", jobs=2))
     assert len((tmp_path / "words").read_text().splitlines()) < 8, "of 36"
 
 
 def test_a_trial_that_fails_is_named_and_run_again_next_time(tmp_path, capsys):
     out = tmp_path / "out"
-    assert batch.run_batch(stand_in(tmp_path, broken="3"), args_of(out)) == 1
+    assert run_batch(stand_in(tmp_path, broken="3"), args_of(out)) == 1
     assert "seed 3" in capsys.readouterr().err and not (out / "trials.csv").exists()
-    assert batch.run_batch(stand_in(tmp_path), args_of(out)) == 0
+    assert run_batch(stand_in(tmp_path), args_of(out)) == 0
 
 
 def test_another_batch_in_the_same_folder_and_bad_words_are_refused_by_a_sentence(tmp_path):
     program = stand_in(tmp_path)
-    assert batch.run_batch(program, args_of(tmp_path / "a", seeds="1-2")) == 0
+    assert run_batch(program, args_of(tmp_path / "a", seeds="1-2")) == 0
     for more in ({"seeds": "1-3"}, {"out": str(tmp_path / "b"), "people": "tired"}, {"out": str(tmp_path / "b"), "conditions": "dark"},
                  {"out": str(tmp_path / "b"), "shard": "3/2"}, {"out": str(tmp_path / "b"), "seeds": "9-1"}):
-        with pytest.raises(Failure, match="allowed|another"):
-            batch.run_batch(program, args_of(more.pop("out", tmp_path / "a"), **more))
+        with pytest.raises(BatchError, match="allowed|another"):
+            run_batch(program, args_of(more.pop("out", tmp_path / "a"), **more))
 
 
 def test_a_condition_that_the_program_would_refuse_is_refused_once_and_before_any_trial(tmp_path, capsys):
     args = args_of(tmp_path / "a", conditions="default,bad=feedback/unknown:=1")
-    with pytest.raises(Failure, match="condition bad, person able: the key \"unknown\" is unknown") as refused:
-        batch.run_batch(stand_in(tmp_path), args)
+    with pytest.raises(BatchError, match="condition bad, person able: the key \"unknown\" is unknown") as refused:
+        run_batch(stand_in(tmp_path), args)
     assert refused.value.code == 2 and not (tmp_path / "a").exists() and "trial" not in capsys.readouterr().err
 
 
 def test_the_condition_that_the_help_shows_is_one_that_the_program_knows():
-    condition = re.search(r"^slow=\S+$", batch.__doc__, re.M)[0]
+    condition = re.search(r"^slow=\S+$", command.__doc__, re.M)[0]
     trials = batch.trials_of(args_of("unused", worlds="training", seeds="1", people="able", conditions=condition))
     batch.require_conditions(ROOT / "navvi_ws/devel/lib/navvi_study/trials_bench", trials)
+
+
+def test_a_condition_with_a_word_that_is_no_parameter_is_refused_before_anything_is_built():
+    for words in ("slow", "eyes/open:=1", "feedback/drive/max_forward=0.5"):
+        with pytest.raises(BatchError, match="allowed is PART/NAME:=VALUE"):
+            batch.trials_of(args_of("unused", conditions=f"mine={words}"))
+
+
+def test_records_are_kept_of_the_trials_that_are_asked_for(tmp_path):
+    program = tmp_path / "told"
+    program.write_text(stand_in(tmp_path).read_text().replace("# The row", f'echo "$@" >> {tmp_path}/words\n# The row'))
+    program.chmod(0o755)
+    assert run_batch(program, args_of(tmp_path / "a", records="all")) == 0
+    words = [set(line.split()) for line in (tmp_path / "words").read_text().splitlines()]
+    assert len(words) == 36 and all({"--records=all", f"--out={tmp_path}/a/records/{at}"} <= each for at, each in enumerate(words))
 
 
 def test_one_shard_is_written_by_one_process_at_a_time(tmp_path):
@@ -185,7 +211,7 @@ def test_one_shard_is_written_by_one_process_at_a_time(tmp_path):
     if child == 0:
         try:
             batch.Rows(tmp_path / "rows.csv")
-        except Failure:
+        except BatchError:
             os._exit(3)
         os._exit(0)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 3

@@ -5,18 +5,14 @@ from types import SimpleNamespace
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "navvi_ws/src/navvi_people/scripts"))
-sys.path.insert(0, str(ROOT))
-import guidance_page as page  # noqa: E402
-import guidance_plots as plots  # noqa: E402
-import guidance_tables as tables  # noqa: E402
-from navvi_cli.commands import batch  # noqa: E402
+sys.path.insert(0, str(ROOT / "navvi_ws/src/navvi_people/python"))
+from navvi_people import batch, guidance_page as page, guidance_plots as plots, guidance_tables as tables  # noqa: E402
 
 
 def row(seed, person="able", condition="default", **more):
     values = {"world": "busy", "seed": str(seed), "person": person, "person_seed": "1", "condition": condition, "contacts": "0", "spl": "0.960",
-              "result": "reached", "time": "100", "driven": "50.0", "over_sighted": "1.1", "residual": "3.0", "cues": "6.0", "hits": "-",
-              "still": "5.0", "speechless": "0"}
+              "result": "reached", "elapsed_s": "100", "path_length_m": "50.0", "over_sighted": "1.1", "residual_deg": "3.0", "cues_per_min": "6.0", "hits": "-",
+              "still_s": "5.0", "speechless": "0"}
     return {**values, **more}
 
 
@@ -25,8 +21,8 @@ def batch_of(change):
     rows = []
     for seed in range(10):
         for person, seconds in zip(tables.TYPES, change):
-            rows.append(row(seed, person, time=str(100 + seed)))
-            rows.append(row(seed, person, "sounds_off", time=str(100 + seed + seconds + 0.1 * seed)))
+            rows.append(row(seed, person, elapsed_s=str(100 + seed)))
+            rows.append(row(seed, person, "sounds_off", elapsed_s=str(100 + seed + seconds + 0.1 * seed)))
     return rows
 
 
@@ -39,8 +35,8 @@ def test_an_interval_holds_the_mean_and_is_the_same_each_time():
 
 
 def test_changes_are_of_the_same_worlds_alone():
-    rows = [row(1, time="100"), row(2, time="300"), row(1, condition="brief", time="90"), row(3, condition="brief", time="1")]
-    assert tables.differences(rows, "able", "brief", "time") == [-10.0]
+    rows = [row(1, elapsed_s="100"), row(2, elapsed_s="300"), row(1, condition="brief", elapsed_s="90"), row(3, condition="brief", elapsed_s="1")]
+    assert tables.differences(rows, "able", "brief", "elapsed_s") == [-10.0]
 
 
 def test_a_conclusion_turns_round_where_it_is_better_for_one_person_and_worse_for_another():
@@ -55,7 +51,7 @@ def test_goals_are_met_or_missed():
     assert [cell.partition(": ")[2].strip(" |") for cell in cells["| contacts a trial"]] == ["met"] * 3
     assert [cell.partition(": ")[2].strip(" |") for cell in cells["| SPL"]] == ["met"] * 3
     assert cells["| in no measure worse than words and touch alone (`sounds_off`)"] == ["met", "met", "missed: time, s |"]
-    rows = [{**one, "contacts": "1", "spl": "0.930", "residual": "4.1"} for one in batch_of((0.0, 0.0, 0.0))]
+    rows = [{**one, "contacts": "1", "spl": "0.930", "residual_deg": "4.1"} for one in batch_of((0.0, 0.0, 0.0))]
     cells = {line.split(" | ")[0]: line.split(" | ")[1:] for line in tables.goals(rows)[2:]}
     for measure, wanted in (("| contacts a trial", ["missed"] * 3), ("| SPL", ["missed", "met", "met"]),
                             ("| left of a turn, deg, median", ["missed", "met", "met"])):

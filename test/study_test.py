@@ -228,13 +228,13 @@ def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path)
     plan = small(tmp_path)
 
     def compared(**second):
-        row = {"result": "reached", "shortest": "40.0", "time": "120.0", "turns": "2.0", "passed": "12"}
+        row = {"result": "reached", "shortest_path_m": "40.000", "elapsed_s": "120.000", "turns_per_min": "2.0", "mover_proximity_count": "12"}
         return worlds.compared(plan, {world: {**row, **(second if world.seed == 2 else {})} for world in plan.worlds})
     lines, alike = compared()
     assert alike and "  set 1: easy 1: reached, way 40.0, turns 4, movers 12, time 120.0." in lines
-    assert not compared(shortest="51.0")[1] and not compared(time="151.0", turns="1.6")[1] and not compared(turns="4.0")[1]
-    assert compared(turns="3.0")[1], "two turns apart are alike, however few they are"
-    assert any(line == "The turns of set 2 are 8, those of set 1 4; other seeds would be better: alike are 1.25 times, or 2 turns." for line in compared(turns="4.0")[0])
+    assert not compared(shortest_path_m="51.0")[1] and not compared(elapsed_s="151.0", turns_per_min="1.6")[1] and not compared(turns_per_min="4.0")[1]
+    assert compared(turns_per_min="3.0")[1], "two turns apart are alike, however few they are"
+    assert any(line == "The turns of set 2 are 8, those of set 1 4; other seeds would be better: alike are 1.25 times, or 2 turns." for line in compared(turns_per_min="4.0")[0])
 
 
 # What comes next.
@@ -546,14 +546,15 @@ def rehearsed(folder, trials_bench, said):
 
 @pytest.fixture
 def bench(tmp_path):
-    """Instead of trials_bench: a row a trial, and it waits where a file says so."""
+    """Instead of trials_bench: a summary a trial, and it waits where a file says so."""
     small(tmp_path)
     path = tmp_path / "trials_bench"
     path.write_text(f"""#!/bin/sh
 echo "$@" >> {tmp_path}/calls
 if test -e {tmp_path}/wait && test $(wc -l < {tmp_path}/calls) -gt 3; then touch {tmp_path}/there; sleep 30; fi
-echo world,seed,result,time,driven,shortest,reroutes,hits
-echo easy,1,reached,20.0,12.0,10.0,0,shelf 1
+for word in "$@"; do case $word in --out=*) out=${{word#--out=}}/trial-easy-1 ;; esac; done
+mkdir -p $out
+printf 'trial,started_utc,result,reason,elapsed_s,path_length_m,first_path_length_m\ntrial-easy-1,2026-01-01T00:00:00Z,reached,n/a,20.0,12.0,10.0\n' > $out/summary.csv
 """)
     path.chmod(0o755)
     return path
@@ -605,14 +606,18 @@ def test_a_rehearsal_on_a_full_disk_is_a_sentence_and_goes_on_once_there_is_room
 
 # The tables.
 
+FIGURES = [{"name": "elapsed_s", "unit": "s", "meaning": "simulated time from start to goal", "source": "the paper"}]
+
+
 def test_tables_describe_each_column_and_the_same_study_gives_the_same_bytes(work):
     rest(work())
-    files = table.write(work.study, work.study.progress())
+    files = table.write(work.study, work.study.progress(), FIGURES)
     before = [path.read_bytes() for path in files]
-    assert before == [path.read_bytes() for path in table.write(work.study, work.study.progress())]
+    assert before == [path.read_bytes() for path in table.write(work.study, work.study.progress(), FIGURES)]
     header = files[0].read_text().splitlines()[0].split(",")
     described = json.loads(files[1].read_text())
     assert list(described) == header and described["elapsed_s"]["Units"] == "s"
+    assert described["elapsed_s"]["Source"] == "the paper"
     assert len(files[2].read_text().splitlines()) == 1 + 2 * 6
 
 
@@ -622,17 +627,17 @@ def test_journal_bag_and_table_are_held_against_each_other(work, tmp_path):
     state = work.study.progress()
     programs = []
     for name, code in (("good", 0), ("bad", 1)):
-        (tmp_path / name).write_text(f"#!/bin/sh\necho elapsed_s is 1 in the summary and 2 in the recount\nexit {code}\n")
+        (tmp_path / name).write_text(f"#!/bin/sh\necho elapsed_s is 1 in the summary and 2 in the recount\n[ $1 = journal ] || exit {code}\n")
         (tmp_path / name).chmod(0o755)
         programs.append(tmp_path / name)
     good, bad = programs
-    assert verify.verify(work.study, state, bad, bad)[1] == 0, "nothing is counted where there is neither journal nor bag"
+    assert verify.verify(work.study, state, bad)[1] == 0, "nothing is counted where there is neither journal nor bag"
     attempt = state.person("sub-01").attempts[0]
     trial = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
     write_record(trial)
     (trial / "trial.bag").touch()
-    assert verify.verify(work.study, state, good, good)[1] == 0
-    sentences, differ = verify.verify(work.study, state, good, bad)
+    assert verify.verify(work.study, state, good)[1] == 0
+    sentences, differ = verify.verify(work.study, state, bad)
     assert differ == 1 and "bag differs: elapsed_s is 1 in the summary and 2 in the recount" in sentences[0] and "journal equal" in sentences[0]
 
 
@@ -713,7 +718,7 @@ def test_what_was_answered_to_a_probe_stands_beside_what_was_true(probed):
     assert [row["score"] for row in table.scores(kept, state) if row["questionnaire"] == "probe"] == [31.5, 31.5]
     phases = [(row["phase"], row["counts"]) for row in table.trials(kept, state)]
     assert phases == [("trial", "yes"), ("probe", "no")] * 2, "no figure of a trial is made of a probe"
-    files = {path.name: path for path in table.write(kept, state)}
+    files = {path.name: path for path in table.write(kept, state, FIGURES)}
     assert json.loads(files["answers.json"].read_text())["error_deg"]["Units"] == "deg"
 
 
@@ -837,7 +842,7 @@ def test_marks_stand_among_the_events_of_their_trial_at_its_own_time(work):
     assert [(row["onset_s"], row["trial_type"], row["detail"]) for row in rows] == [
         ("1.000", "note", "the door opened"), ("2.500", "goal reached", "n/a"), ("4.000", "mark", "n/a"), ("22.000", "intervention", "late")]
     assert all(row["participant"] == "sub-01" and row["counts"] == "yes" and row["trial"] == attempt.trial for row in rows)
-    files = table.write(work.study, work.study.progress())
+    files = table.write(work.study, work.study.progress(), FIGURES)
     described = json.loads((work.study.folder / "events.json").read_text())
     assert described["onset_s"]["Units"] == "s" and work.study.folder / "events.csv" in files
 
@@ -1072,7 +1077,7 @@ def test_a_test_of_a_dozen_participants_finds_nothing_no_more_often_than_it_may(
 def script(name):
     import importlib.machinery
     import importlib.util
-    loader = importlib.machinery.SourceFileLoader(name, str(PACKAGE / "scripts" / name))
+    loader = importlib.machinery.SourceFileLoader(name, str(PACKAGE / "bench" / name))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module

@@ -6,6 +6,7 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import time
 
 import pytest
@@ -14,7 +15,7 @@ import rospy
 from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent, TrialState
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SCRIPT = ROOT / "navvi_ws/src/navvi_study/scripts/watch_session"
+SCRIPT = ROOT / "navvi_ws/src/navvi_study/python/navvi_study/watch.py"
 loader = importlib.machinery.SourceFileLoader("watch_session", str(SCRIPT))
 watch = importlib.util.module_from_spec(importlib.util.spec_from_loader("watch_session", loader))
 loader.exec_module(watch)
@@ -112,7 +113,7 @@ def test_a_recorded_trial_is_told_in_lines_of_which_each_says_something_new(tria
 def test_R2_a_damaged_bag_ends_in_a_sentence(damage, trial):
     bag = trial / "trial.bag"
     bag.write_bytes(damage(bag.read_bytes()))
-    result = subprocess.run([str(SCRIPT), "0", "false", str(trial)], capture_output=True, text=True, timeout=60)
+    result = subprocess.run([sys.executable, str(SCRIPT), "0", "false", str(trial)], capture_output=True, text=True, timeout=60)
     assert result.returncode == 2, result.stdout + result.stderr
     assert len(result.stderr.splitlines()) == 1 and f"{bag} is damaged and cannot be read" in result.stderr, result.stderr
 

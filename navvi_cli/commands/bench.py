@@ -1,24 +1,18 @@
-"""Run the benchmarks, or whole sessions with a simulated person.
+"""Run the benchmarks: stopwatches, and figures beside those of the paper.
 
 The sim and nav benchmarks print ratios to a plain use of the same library in
 the same run. nav takes --maps for maps alone, --resolution=0.05 and
 --largest=100 (m). build times what a newcomer waits for, in a clone of its own
 and without the compiler's cache. latency [--rounds=100] times what a person
 waits for, with nodes as they run live.
-trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]
-[--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]
-[--trace[=FROM-TO]] [PART/NAME:=VALUE ...] runs sessions without ROS and prints
-one row a trial, or with --csv a table for a program. --trace prints what
-happens second by second, between FROM and TO (s). --sensing gives guidance and
-feedback what a lidar, or a lidar and a depth camera (robot), show of the world.
---cache bounds the worlds kept for other trials (MB; 0: none). PART is sim, nav,
-feedback, person or perception, with the parameters of its node, such as
-nav/replan/hold_time:=3 or sim/goal:=3,4.
 paper [--seeds=1-6] [--world=busy] [TRIAL] prints what the paper prints, with
 NavVI's own beside it, and why some of it cannot be repeated.
-people [TYPE] prints published effects of guidance on people beside those of the
-simulated person; guidance DIR the tables of a batch, guidance DIR -o FILE.md
-doc/guidance.md anew: it runs what is missing of that page's batches.
+
+Researchers run ./navvi batch. The older words remain: trials plays single
+trials without ROS, a row each (trials --help names its options, such as
+--trace and --out); people [TYPE] prints published effects of guidance beside
+those of the simulated person; guidance DIR the tables of a batch, guidance DIR
+-o FILE.md doc/guidance.md anew.
 
 Exit codes
 0: done. 1: one failed. 2: a wrong argument.
@@ -43,7 +37,7 @@ NEEDS = {"study/paper_bench": ["trials_bench"]}
 def benchmarks():
     """The file of each, by names such as nav/nav."""
     found = {}
-    for path in sorted([*WORKSPACE.glob("src/navvi_*/bench/*_bench.cpp"), *WORKSPACE.glob("src/navvi_*/scripts/*_bench")]):
+    for path in sorted([*WORKSPACE.glob("src/navvi_*/bench/*_bench.cpp"), *WORKSPACE.glob("src/navvi_*/bench/*_bench")]):
         name = f"{path.parent.parent.name[len('navvi_'):]}/{path.stem}"
         if re.fullmatch(r"[a-z]+/[a-z_]+", name):
             found[name] = path

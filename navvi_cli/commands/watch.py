@@ -24,7 +24,7 @@ import sys
 
 from navvi_cli.arguments import Words, completions, trial_in, trials_that_hold
 from navvi_cli.network import listeners, running_sessions
-from navvi_cli.places import DEVEL, script
+from navvi_cli.places import DEVEL, share
 from navvi_cli.say import fail
 from navvi_cli.workspace import build, enter, is_current
 
@@ -53,9 +53,9 @@ def run(args):
     if port:
         os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1")
         os.environ.pop("ROS_HOSTNAME", None)
-    program = str(script("navvi_study", "watch_session"))
+    program = str(share("navvi_study") / "python" / "navvi_study" / "watch.py")
     slow = not trial or sys.stdout.isatty() or words.get("speech") == "true"
-    os.execv(program, [program, words.get("pace", "180" if slow else "0"), words.get("speech", "false"), *([str(trial)] if trial else [])])
+    os.execv(sys.executable, [sys.executable, program, words.get("pace", "180" if slow else "0"), words.get("speech", "false"), *([str(trial)] if trial else [])])
 
 
 def port_of_session(wanted):

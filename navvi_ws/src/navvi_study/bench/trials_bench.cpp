@@ -4,51 +4,67 @@
 #include <ros/package.h>
 
 #include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
+#include <cstring>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
-#include <map>
 #include <navvi_config/reader.hpp>
 #include <navvi_people/loop/closed_loop.hpp>
+#include <navvi_types/angles.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "batch/loop_figures.hpp"
-#include "batch/loop_trace.hpp"
+#include "batch/loop_trial.hpp"
 #include "batch/world_cache.hpp"
 #include "record/child_process.hpp"
 
 namespace navvi_study::bench {
 namespace {
 
-using batch::LoopFigures;
-using batch::LoopTrace;
+using batch::LoopTrial;
 using navvi_people::loop::ClosedLoop;
-using navvi_people::loop::ClosedLoopConfig;
+using record::Figure;
 
 constexpr const char* kUsage =
     "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
     "             [--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]\n"
-    "             [--trace[=FROM-TO]] [--check] [part/name:=value ...]\n"
-    "One row a trial. --trace tells what happens, second by second, between FROM and TO (s).\n"
+    "             [--out=DIR] [--records=all|failed|none] [--trace[=FROM-TO]] [--check]\n"
+    "             [part/name:=value ...]\n"
+    "One row a trial; with --csv all figures.\n"
+    "--out: keep the records of trials that do not reach their goals, or of all, in DIR.\n"
+    "--trace: print the journal, and the track once a second, between FROM and TO (s).\n"
     "--check runs nothing: exit code 2 and a sentence where a parameter would be rejected.\n"
     "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
     "--cache: MB of ~/.cache/navvi/worlds, which keeps map, start, goal and mesh of each world "
     "and seed\n"
     "for other trials; 0: nothing is kept.\n"
-    "A part is sim, nav, feedback, person or perception, with the names of its node's "
+    "A part is sim, nav, feedback, person, perception or trial, with the names of its node's "
     "parameters, such as\n"
-    "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` tells them all.\n";
+    "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` lists them.\n";
 
 constexpr std::int64_t kMostTrials = 100000;
 constexpr int kMostJobs = 256;
 constexpr int kMostMegabytes = 1000000;
 
-/// A sentence for who typed the command.
+/// A closed loop, and what its record is to say.
+struct LoopTrialConfig {
+  navvi_people::loop::ClosedLoopConfig loop;
+  trial::TrialNodeConfig trial;
+
+  void describe(navvi_config::Visitor& visit) {
+    loop.describe(visit);
+    visit.group("trial", trial);
+  }
+};
+
+/// Message for the user.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -67,6 +83,8 @@ struct Options {
   int jobs = 1;
   int cache = 512;            ///< MB
   std::optional<Span> trace;  ///< s
+  std::string out;            ///< folder of records; empty: none are kept
+  bool all_records = false;
   std::vector<std::string> parameters;
   bool csv = false;
   bool check = false;
@@ -107,6 +125,7 @@ std::vector<std::string> list(const std::string& text) {
 
 Options read_options(const std::vector<std::string>& words) {
   Options out;
+  std::string records = "failed";
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     const std::string option = word.substr(0, equals);
@@ -129,6 +148,10 @@ Options read_options(const std::vector<std::string>& words) {
       out.cache = number(option, value, 0, kMostMegabytes);
     } else if (option == "--trace") {
       out.trace = value.empty() ? Span{0, 1000000} : span(option, value);
+    } else if (option == "--out") {
+      out.out = value;
+    } else if (option == "--records") {
+      records = value;
     } else if (option == "--csv") {
       out.csv = true;
     } else if (option == "--check") {
@@ -139,6 +162,11 @@ Options read_options(const std::vector<std::string>& words) {
       throw UsageError("\"" + word + "\" is not an option; allowed are:\n" + kUsage);
     }
   }
+  if (records != "all" && records != "failed" && records != "none")
+    throw UsageError("--records has \"" + records + "\"; allowed are all, failed and none.");
+  out.all_records = records == "all";
+  if (out.all_records && out.out.empty()) throw UsageError("--records=all needs --out=DIR.");
+  if (records == "none") out.out.clear();
   if (out.trace && out.csv) throw UsageError("--csv is for rows, --trace for what happens.");
   if (out.trace && out.jobs > 1)
     throw UsageError("--trace tells of one trial after the other: it needs --jobs=1.");
@@ -157,16 +185,21 @@ std::string share(const std::string& package) {
   return path;
 }
 
-ClosedLoopConfig configured(const Options& options) {
-  ClosedLoopConfig config;
+LoopTrialConfig configured(const Options& options) {
+  LoopTrialConfig config;
   const auto overlay = [&](auto& part, const std::string& package) {
     const std::string file = share(package) + "/config/" + options.profile + ".yaml";
     navvi_config::read(part, navvi_config::load_yaml(file), file);
   };
-  overlay(config.sim, "navvi_sim");
-  overlay(config.nav, "navvi_nav");
-  overlay(config.feedback, "navvi_feedback");
+  overlay(config.loop.sim, "navvi_sim");
+  overlay(config.loop.nav, "navvi_nav");
+  overlay(config.loop.feedback, "navvi_feedback");
+  config.trial.profile = options.profile;
+  config.trial.limit = options.limit;
   navvi_config::read(config, navvi_config::read_words(options.parameters), "the command line");
+  trial::check(config.trial);
+  for (const std::string& word : options.parameters)
+    config.trial.parameters += (config.trial.parameters.empty() ? "" : " ") + word;
   return config;
 }
 
@@ -175,138 +208,98 @@ struct Task {
   int seed = 1;
 };
 
-record::Fields run_trial(const Options& options, ClosedLoopConfig config,
+/// Of a trial in the folder of records, such as trial-busy-7.
+std::string name_of(const Task& task) {
+  std::string name = "trial-" + std::filesystem::path(task.world).stem().string() + "-" +
+                     std::to_string(task.seed);
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '-';
+  return name;
+}
+
+/// Rows of the journal, and one of the track a second, between `span` s since the trial began.
+void print_trace(const record::Trial& trial, const Span& span) {
+  double next = 0.0;  // s
+  auto at = trial.track.begin();
+  const auto track_until = [&](double time) {
+    for (; at != trial.track.end() && at->time - trial.begin() <= time; ++at) {
+      const double since = at->time - trial.begin();
+      if (since < next || since < span.from || since > span.to) continue;
+      next = std::floor(since) + 1.0;
+      std::printf("%7.2f  robot %.2f,%.2f heading %.0f, %.2f m/s | %s, steer %+.0f | stick %+.2f "
+                  "forward %+.2f left | near %s %.2f m\n",
+                  since, at->x, at->y, navvi_types::degrees(at->yaw), at->speed,
+                  at->state.text().c_str(), navvi_types::degrees(at->steer), at->stick_forward,
+                  at->stick_left, at->nearest.text().c_str(), at->gap);
+    }
+  };
+  for (const record::Row& row : trial.rows) {
+    const double since = record::time_of(row) - trial.begin();
+    track_until(since);
+    if (since >= span.from && since <= span.to)
+      std::printf("%7.2f  %s %s\n", since, row.type.c_str(), row.fields.format().c_str());
+  }
+  std::fflush(stdout);
+}
+
+record::Trial play(const LoopTrialConfig& config, const std::string& phrases,
+                   const navvi_files::Cache* cache, const std::filesystem::path& folder) {
+  ClosedLoop loop(config.loop, phrases, cache);
+  LoopTrial trial(config.trial, loop, phrases);
+  const auto utc = std::chrono::system_clock::now().time_since_epoch();
+  if (!folder.empty())
+    trial.keep(folder, std::chrono::duration_cast<std::chrono::nanoseconds>(utc).count());
+  do {
+    if (!loop.step()) throw std::runtime_error("a number in the world is not finite");
+  } while (trial.watch());
+  return trial.finish();
+}
+
+/// The figures of a simulated trial, by name.
+record::Fields run_trial(const Options& options, LoopTrialConfig config,
                          const std::string& phrases, const navvi_files::Cache* cache,
                          const Task& task) {
-  config.sim.world = task.world;
-  config.sim.seed = task.seed;
-  ClosedLoop loop(config, phrases, cache);
-  LoopFigures figures(options.limit);
-  std::optional<LoopTrace> trace;
-  if (options.trace) trace.emplace(std::cout, options.trace->from, options.trace->to);
-  bool goes_on = true;
-  while (goes_on) {
-    if (!loop.step()) throw std::runtime_error("a number in the world is not finite");
-    goes_on = figures.watch(loop);
-    if (trace) trace->watch(loop);
-  }
-  return figures.row(loop);
+  config.loop.sim.world = task.world;
+  config.loop.sim.seed = task.seed;
+  std::filesystem::path folder;
+  if (!options.out.empty()) folder = std::filesystem::path(options.out) / name_of(task);
+  record::Trial trial = play(config, phrases, cache, options.all_records ? folder : "");
+  // The same trial once more: only one in many is kept, and it is the same bit for bit.
+  const bool failed = trial.last("TRIAL_END")->fields.get("result") != "reached";
+  if (failed && !folder.empty() && !options.all_records) trial = play(config, phrases, cache, folder);
+  if (options.trace) print_trace(trial, *options.trace);
+  record::Fields row;
+  for (const Figure& figure : record::figures())
+    if (figure.kind == Figure::Kind::counted) row.set(figure.name, figure.of(trial, figure.name));
+  return row;
 }
 
-/// What a column shows: its title, its width, and the fields in it.
-struct Column {
-  const char* title;
-  int width;
-  std::vector<const char*> fields;
-};
+/// What stands in a row on the screen.
+constexpr const char* kShown[] = {"result",          "reason",   "elapsed_s", "path_length_m",
+                                  "shortest_path_m", "contacts", "hits",      "reroute_count",
+                                  "cues_per_min",    "misled",   "still_s",   "still_about"};
 
-const std::vector<Column>& columns() {
-  static const std::vector<Column> all = {
-      {"result", -8, {"result"}},
-      {"time", 6, {"time"}},
-      {"driven/short", 12, {"driven", "shortest"}},
-      {"reroutes", 8, {"reroutes"}},
-      {"turns/min", 9, {"turns"}},
-      {"flips/reversed/misled", 21, {"flips", "reversed", "misled"}},
-      {"cues/words/min talk", 20, {"cues", "words", "talk"}},
-      {"repeats/odds/waits/hasty", 24, {"repeats", "at_odds", "waits", "hasty"}},
-      {"speechless", 10, {"speechless"}},
-      {"turns/left/tail/acts", 20, {"led_turns", "residual", "residual_90", "cue_to_action"}},
-      {"gap/motors", 11, {"least_gap", "motors"}},
-      {"follow/block/room/noroute/offmesh/other",
-       39,
-       {"following", "blocked", "make_room", "no_route", "off_mesh", "other"}},
-      {"still@", 12, {"still", "still_at"}},
-      {"hits", -20, {"hits"}},
-      {"passed/missed/ghosts/lag", 24, {"passed", "missed", "ghosts", "lag"}},
-      {"late warned", -12, {"late", "warned"}},
-      {"at the end of the standstill", -1, {"why"}},
-  };
-  return all;
-}
-
-void print_row(const Task& task, const record::Fields& row) {
-  std::printf("%-10s %4d ", task.world.c_str(), task.seed);
-  for (const Column& column : columns()) {
-    std::string cell;
-    for (const char* field : column.fields) cell += (cell.empty() ? "" : "/") + row.get(field);
-    std::printf(" %*s", column.width, cell.c_str());
-  }
+template <typename Cell>
+void print_row(const std::string& world, const std::string& seed, const Cell& cell) {
+  std::printf("%-10s %4s", world.c_str(), seed.c_str());
+  for (const char* name : kShown)
+    std::printf("  %*s", -std::max(8, static_cast<int>(std::strlen(name))), cell(name).c_str());
   std::printf("\n");
   std::fflush(stdout);
 }
 
-void print_titles() {
-  std::printf("%-10s %4s ", "world", "seed");
-  for (const Column& column : columns()) std::printf(" %*s", column.width, column.title);
-  std::printf("\n");
-  std::fflush(stdout);
-}
-
-/// Titles, or a row, as CSV: a cell a field.
-void print_csv(const std::string& first, const std::function<std::string(const char*)>& cell) {
+/// Titles, or a row, as CSV: a cell a figure.
+template <typename Cell>
+void print_csv(const std::string& first, const Cell& cell) {
   std::cout << first;
-  for (const Column& column : columns())
-    for (const char* field : column.fields) std::cout << ',' << std::quoted(cell(field), '"', '"');
+  for (const Figure& figure : record::figures())
+    if (figure.kind == Figure::Kind::counted)
+      std::cout << ',' << std::quoted(cell(figure.name), '"', '"');
   std::cout << std::endl;
 }
 
-/// All trials in one line.
-class Total {
- public:
-  void add(const record::Fields& row) {
-    ++trials_;
-    const bool reached = row.get("result") == "reached";
-    reached_ += reached ? 1 : 0;
-    for (const char* name : {"time", "driven", "shortest"})
-      if (reached) sums_[name] += row.number(name).value_or(0.0);
-    for (const char* name : {"reroutes", "turns", "flips", "misled", "still", "cues", "words",
-                             "talk", "repeats", "waits", "hasty", "at_odds", "reversed", "late",
-                             "speechless", "passed", "missed", "ghosts"})
-      sums_[name] += row.number(name).value_or(0.0);
-    for (const char* name : {"following", "blocked", "make_room", "no_route", "off_mesh", "other"})
-      states_ += row.number(name).value_or(0.0);
-    for (const char* name : {"blocked", "make_room", "no_route", "off_mesh"})
-      sums_[name] += row.number(name).value_or(0.0);
-    clean_ += row.get("hits") == "-" ? 1 : 0;
-  }
-
-  void print() const {
-    if (trials_ == 0) return;
-    const auto mean = [&](const char* name) { return get(name) / trials_; };
-    const auto share = [&](const char* name) { return 100.0 * get(name) / std::max(1.0, states_); };
-    std::printf(
-        "%d of %d reached in %.0f s on the mean, %.2f x the shortest way; %d without a contact; "
-        "on the mean %.1f reroutes, %.1f turns/min, %.1f flips, %.1f misled, "
-        "longest standstill %.0f s; blocked %.1f %%, make room %.1f %%, no route %.1f %%, off mesh "
-        "%.1f %% of the "
-        "time; %.1f cues and %.0f words a minute, %.0f %% of the time; %.2f repeats, %.1f words to "
-        "wait or stop; in all %.0f of these hasty, %.0f directions reversed, %.0f at odds with "
-        "what "
-        "is ahead, %.0f pushes without a word, %.0f movers hit that were felt or told of late\n",
-        reached_, trials_, reached_ > 0 ? get("time") / reached_ : 0.0,
-        get("shortest") > 0.0 ? get("driven") / get("shortest") : 0.0, clean_, mean("reroutes"),
-        mean("turns"), mean("flips"), mean("misled"), mean("still"), share("blocked"),
-        share("make_room"), share("no_route"), share("off_mesh"), mean("cues"), mean("words"),
-        100.0 * mean("talk"), mean("repeats"), mean("waits"), get("hasty"), get("reversed"),
-        get("at_odds"), get("speechless"), get("late"));
-  }
-
- private:
-  [[nodiscard]] double get(const char* name) const {
-    const auto found = sums_.find(name);
-    return found == sums_.end() ? 0.0 : found->second;
-  }
-
-  int trials_ = 0;
-  int reached_ = 0;
-  int clean_ = 0;
-  double states_ = 0.0;
-  std::map<std::string, double> sums_;
-};
-
 int run(const Options& options) {
-  const ClosedLoopConfig config = configured(options);
+  const LoopTrialConfig config = configured(options);
   if (options.check) return 0;
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
   const auto cache = batch::world_cache(static_cast<std::uintmax_t>(options.cache));
@@ -315,12 +308,12 @@ int run(const Options& options) {
     return Task{options.worlds[index / seeds],
                 options.seeds.from + static_cast<int>(index % seeds)};
   };
-  Total total;
   int failed = 0;
+  const auto title = [](const std::string& name) { return name; };
   if (options.csv)
-    print_csv("world,seed", [](const char* field) { return std::string(field); });
+    print_csv("world,seed", title);
   else
-    print_titles();
+    print_row("world", "seed", title);
   // A child a trial: a crash takes only its own trial away.
   record::run_in_children(
       options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
@@ -334,20 +327,18 @@ int run(const Options& options) {
       [&](std::size_t index, const record::Answer& answer) {
         const Task task = task_of(index);
         const auto row = answer.good ? record::Fields::parse(answer.text) : std::nullopt;
-        if (row) {
-          if (options.csv)
-            print_csv(task.world + "," + std::to_string(task.seed),
-                      [&](const char* field) { return row->get(field); });
-          else
-            print_row(task, *row);
-          total.add(*row);
+        const std::string seed = std::to_string(task.seed);
+        const auto cell = [&](const std::string& name) { return row->get(name); };
+        if (row && options.csv) {
+          print_csv(task.world + "," + seed, cell);
+        } else if (row) {
+          print_row(task.world, seed, cell);
         } else {
           std::fprintf(options.csv ? stderr : stdout, "%-10s %4d  %s\n", task.world.c_str(),
                        task.seed, answer.text.c_str());
           ++failed;
         }
       });
-  if (!options.csv) total.print();
   return failed == 0 ? 0 : 2;
 }
 

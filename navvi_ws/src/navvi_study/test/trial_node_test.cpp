@@ -30,7 +30,7 @@
 #include <vector>
 
 #include "record/journal.hpp"
-#include "record/metrics.hpp"
+#include "record/figures.hpp"
 #include "record/row.hpp"
 
 namespace navvi_study {
@@ -301,11 +301,11 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
   EXPECT_NEAR(std::stod(summary["path_length_m"]), 3.0, 0.15);
   EXPECT_FALSE(fs::exists(folder / "trial.bag.active"));
 
-  EXPECT_EQ(std::system((std::string(SUMMARY_FROM_BAG) + " " + folder.string()).c_str()), 0);
-  EXPECT_EQ(std::system((std::string(SUMMARY_FROM_JOURNAL) + " " + folder.string()).c_str()), 0);
+  EXPECT_EQ(std::system((std::string(COUNT_TRIAL) + " bag " + folder.string()).c_str()), 0);
+  EXPECT_EQ(std::system((std::string(COUNT_TRIAL) + " journal " + folder.string()).c_str()), 0);
 
   fs::resize_file(folder / "trial.bag", fs::file_size(folder / "trial.bag") / 2);
-  const int damaged = std::system((std::string(SUMMARY_FROM_BAG) + " " + folder.string()).c_str());
+  const int damaged = std::system((std::string(COUNT_TRIAL) + " bag " + folder.string()).c_str());
   EXPECT_EQ(WEXITSTATUS(damaged), 2) << "a damaged bag is told, not guessed from";
 }
 

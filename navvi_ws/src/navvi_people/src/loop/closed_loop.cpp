@@ -91,8 +91,8 @@ void ClosedLoop::sense() {
     guided_.take(*odometry, time());
     navigation_.set_speed(odometry->velocity.linear);
   }
-  if (const auto gate = node::from_msg(navvi_types::to_msg(gate_.drive_state(now.stamp()))))
-    guided_.take(*gate, time());
+  published_.drive = navvi_types::to_msg(gate_.drive_state(now.stamp()));
+  if (const auto gate = node::from_msg(published_.drive)) guided_.take(*gate, time());
   for (const navvi_types::Contact& contact : now.contacts) {
     published_.contacts.push_back(navvi_types::to_msg(contact));
     const auto felt = node::from_msg(published_.contacts.back());

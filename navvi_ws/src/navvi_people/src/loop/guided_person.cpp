@@ -37,6 +37,7 @@ std::optional<navvi_types::Velocity> GuidedPerson::feed_back(const people::Stick
   if (told->voice.stop) speaks_until_ = time;
   if (told->voice.start) speaks_until_ = navvi_types::spoken_at(time, told->voice.start->size());
   std::vector<CueEvent> events = told->said;
+  if (told->felt) events.push_back(*told->felt);
   for (const navvi_feedback::sounds::Play& play : told->plays)
     events.push_back(guide_.event_of(play));
   for (CueEvent& event : events) {

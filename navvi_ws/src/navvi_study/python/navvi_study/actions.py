@@ -264,7 +264,7 @@ class Table:
     def run(args):
         from . import table
         study = opened(args)
-        for path in table.write(study, study.progress()):
+        for path in table.write(study, study.progress(), _figures()):
             print(f"navvi: written: {path}")
 
 
@@ -284,8 +284,7 @@ class Verify:
     def run(args):
         from . import verify
         study = opened(args)
-        programs = (TOOLS["tool"]("navvi_study", name) for name in ("summary_from_journal", "summary_from_bag"))
-        sentences, bad = verify.verify(study, study.progress(), *programs)
+        sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
         lines, counts, lost = verify.notes_and_answers(study, study.progress())
         print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
         return 1 if bad or lost else 0
@@ -309,7 +308,7 @@ class Export:
     def run(args):
         from . import export
         study = opened(args)
-        print(f"navvi: written: {export.write(study, study.progress(), export.way_of_bag)}")
+        print(f"navvi: written: {export.write(study, study.progress(), export.way_of)}")
 
 
 class Report:
@@ -369,13 +368,18 @@ def _finished(study, name):
     return left.next(left.person(name)) is None and not left.person(name).open
 
 
+def _figures():
+    from . import table
+    return table.figures(TOOLS["tool"]("navvi_study", "count_trial"))
+
+
 def _write_report(study, only, rehearsed):
     from . import figures, report, table, worlds
     from .analysis import Analysis
     from .measures import MEASURES
     from .study import write_safely
     progress = study.progress()
-    files = table.write(study, progress)
+    files = table.write(study, progress, _figures())
     if not only:
         files.append(report.write(study, progress, rehearsed, worlds.picture_for(study.plan, TOOLS["navvi"])))
     elif only not in MEASURES or only not in (measured := Analysis(study, progress)).asked():

@@ -22,7 +22,7 @@ EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Uni
 
 
 def write(study, progress, read_way):
-    """\\param read_way  takes a bag's path and returns rows of (s, x, y, yaw)
+    """\\param read_way  takes a trial's folder and returns rows of (s, x, y, yaw)
     Returns the folder, which is written anew."""
     folder = study.folder / "bids"
     shutil.rmtree(folder, ignore_errors=True)
@@ -52,7 +52,7 @@ def _trial(folder, row, attempt, run, study, read_way):
     track = f"{name}_tracksys-{TRACKING}_{end}"
     record = Record(trial)
     begun, ended = (record.first(kind).sim_ns / 1e9 for kind in ("TRIAL_START", "TRIAL_END"))
-    way = resampled([place for place in read_way(trial / "trial.bag") if begun <= place[0] <= ended], RATE)
+    way = resampled([place for place in read_way(trial) if begun <= place[0] <= ended], RATE)
     _tsv(place / f"{track}_motion.tsv", None, [[f"{value:.4f}" for value in values] for values in way])
     _tsv(place / f"{track}_channels.tsv", ["name", "component", "type", "tracked_point", "units"],
          [[channel, component, kind, "base_link", unit] for channel, kind, component, unit in CHANNELS])
@@ -84,11 +84,13 @@ def resampled(way, rate):
     return rows
 
 
-def way_of_bag(path):
-    """Rows of (s, x, y, yaw) in odom, which in the simulator is map."""
+def way_of(trial):
+    """Rows of (s, x, y, yaw) in map, by the track; of a record without one in odom, by the bag."""
+    if track := Record(trial).track():
+        return [(row["time"], row["x"], row["y"], row["yaw"]) for row in track]
     import rosbag  # of ROS, which only this needs
     rows = []
-    with rosbag.Bag(str(path)) as bag:
+    with rosbag.Bag(str(trial / "trial.bag")) as bag:
         for _, message, _ in bag.read_messages(topics=["/odom"]):
             pose, time = message.pose.pose, message.header.stamp.to_sec()
             if not rows or time > rows[-1][0]:

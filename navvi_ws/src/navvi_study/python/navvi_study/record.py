@@ -1,9 +1,14 @@
 """One trial's own record, as trial_node left it: doc/record.md defines its rows."""
+import ast
 import bisect
+import struct
 from dataclasses import dataclass
 from urllib.parse import unquote
 
 from .journal import lines_of, rows_of
+
+
+FORMATS = {"<f8": "d", "<f4": "f", "<u4": "I"}  # of NumPy's types; all else are texts
 
 
 @dataclass(frozen=True)
@@ -60,6 +65,18 @@ class Record:
     def cues(self):
         """(s, modality, kind, text) of each that was spoken, played or felt."""
         return [(self.onset(row), row.fields.get("modality", "n/a"), row.fields.get("kind", "n/a"), row.fields.get("text", "")) for row in self.of("CUE")]
+
+    def track(self):
+        """How robot and person moved, 50 rows a second, each a value by name; doc/record.md has their units. none without a track."""
+        try:
+            data = (self.folder / "track.npy").read_bytes()
+        except OSError:
+            return []
+        size = 10 + int.from_bytes(data[8:10], "little")
+        fields = ast.literal_eval(data[10:size].decode())["descr"]
+        row = struct.Struct("<" + "".join(FORMATS.get(kind) or kind[1:] + "s" for _, kind in fields))
+        names = [name for name, _ in fields]
+        return [dict(zip(names, values)) for values in row.iter_unpack(data[size:len(data) - (len(data) - size) % row.size])]
 
     def events(self):
         """Rows of events.csv, by column; none where there is no such file."""

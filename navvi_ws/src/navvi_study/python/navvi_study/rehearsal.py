@@ -19,7 +19,7 @@ def rehearse(plan, trials_bench, version, say=print):
         say("navvi: the rehearsal that broke off goes on.")
     else:
         study.freeze(version, None)
-    session = Session(study, LoopRunner(study, trials_bench), say=lambda line: None, wait=False)
+    session = Session(study, LoopRunner(study, trials_bench, version), say=lambda line: None, wait=False)
 
     def live(participant):
         while session.next(participant) is not None:

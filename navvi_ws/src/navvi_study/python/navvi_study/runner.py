@@ -1,6 +1,4 @@
 """How a trial is driven and a questionnaire asked: live by ./navvi, or without ROS by simulated people."""
-import csv
-import io
 import os
 import select
 import signal
@@ -47,7 +45,7 @@ class LiveRunner:
 
     def arguments(self, participant, step, attempt, folder):
         """Of ./navvi run."""
-        plan, group = self.study.plan, self.study.plan.group_of(participant)
+        plan = self.study.plan
         simulated = plan.operator == "simulated"
         words = {**plan.condition(step.condition).arguments(), "operator": plan.operator, "participant": participant, "person": participant,
                  "world": str(plan.world_file(attempt) or attempt.world), "seed": attempt.seed, "limit": f"{step.limit or plan.limit:g}", "once": "true",
@@ -58,10 +56,7 @@ class LiveRunner:
             words.update(rviz="false", **person_of(participant, "operator/person/"))
         else:
             words["speech"] = "true"
-        about = {"name": plan.study, "plan": plan.hash()[:12], "group": group.name, "condition": step.condition, "order": step.order,
-                 "session": step.session, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number, "replaces": attempt.replaces or "none"}
-        words.update({f"trial/study/{name}": value for name, value in about.items()})
-        return words
+        return {**words, **place_of(plan, participant, step, attempt)}
 
     def _learnt(self, participant, attempt):
         plan = self.study.plan
@@ -183,40 +178,21 @@ class LoopRunner:
 
     asks = "nobody"
 
-    def __init__(self, study, trials_bench):
-        self.study, self.program = study, str(trials_bench)
+    def __init__(self, study, trials_bench, version):
+        self.study, self.program, self.version = study, str(trials_bench), version
 
     def trial(self, participant, step, attempt, folder, lock):
         plan = self.study.plan
         words = plan.condition(step.condition).arguments()
         command = [self.program, f"--world={plan.world_file(attempt) or attempt.world}", f"--seeds={attempt.seed}", f"--limit={step.limit or plan.limit:.0f}",
-                   f"--profile={words.pop('profile')}", "--csv"]
-        words.pop("rviz")
-        words.update(person_of(participant, "person/"))
-        parts = ("sim/", "nav/", "feedback/", "person/", "perception/")
+                   f"--profile={words.pop('profile')}", f"--out={folder}", "--records=all"]
+        words.update(person_of(participant, "person/"), **place_of(plan, participant, step, attempt))
+        words.update({"trial/participant": participant, "trial/version": self.version})
+        parts = ("sim/", "nav/", "feedback/", "person/", "perception/", "trial/")
         command += [f"{name}:={value}" for name, value in words.items() if name.startswith(parts) and not name.startswith(("feedback/speaker", "feedback/mixer"))]
         result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False, pass_fds=(lock,))
-        rows = list(csv.DictReader(io.StringIO(result.stdout)))
-        if result.returncode != 0 or len(rows) != 1:
+        if result.returncode != 0:
             raise StudyError(f"{participant}, {step}: {(result.stderr or result.stdout).strip()}")
-        self._write(folder / "trial-rehearsed", rows[0], participant, step.limit or plan.limit)
-
-    @staticmethod
-    def _write(folder, row, participant, limit):
-        """The columns of a trial's summary that the loop knows."""
-        hits = row["hits"].split()
-        counts = dict(zip(hits[::2], map(int, hits[1::2]))) if row["hits"] != "-" else {}
-        shelves = counts.pop("shelf", 0)
-        result, reason = ("aborted", "ended_by_person") if row["result"] == "gave_up" else (row["result"], "n/a")
-        summary = {"trial": folder.name, "world": row["world"], "seed": row["seed"], "operator": "simulated", "participant": participant,
-                   "started_utc": utc_now(), "result": result, "reason": reason, "elapsed_s": f"{limit:g}" if result == "timeout" else row["time"],
-                   "shelf_collision_count": shelves, "obstacle_collision_count": sum(counts.values()), "path_length_m": row["driven"],
-                   "first_path_length_m": row["shortest"], "reroute_count": row["reroutes"], "missed_messages": 0}
-        text = io.StringIO()
-        writer = csv.DictWriter(text, summary, lineterminator="\n")
-        writer.writeheader()
-        writer.writerow(summary)
-        write_safely(folder / "summary.csv", text.getvalue())
 
     def ask(self, participant, step, items, answered, lock):
         simulate_answers(participant, step, items, answered)
@@ -226,6 +202,13 @@ class LoopRunner:
 
     def close(self, folder):
         pass
+
+
+def place_of(plan, participant, step, attempt):
+    """Where a trial stands in the study, as parameters of trial_node."""
+    about = {"name": plan.study, "plan": plan.hash()[:12], "group": plan.group_of(participant).name, "condition": step.condition, "order": step.order,
+             "session": step.session, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number, "replaces": attempt.replaces or "none"}
+    return {f"trial/study/{name}": value for name, value in about.items()}
 
 
 def keep_answers(record, items, answered):

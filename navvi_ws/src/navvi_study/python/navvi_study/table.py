@@ -2,6 +2,7 @@
 import csv
 import io
 import json
+import subprocess
 
 from . import probe
 from .measures import DROP_OUT
@@ -17,7 +18,6 @@ COLUMNS = {
     "marks": "marks and notes of the experimenter", "interventions": "of the experimenter",
 }
 NOT_OURS = {"participant", "group", "condition", "order", "session", "phase", "repeat", "attempt", "replaces"}
-UNITS = {"_s": "s", "_m": "m", "_ms": "ms", "_deg": "deg"}
 # Of each row of events.csv, before what the trial's own events.csv holds.
 WHOSE = ("participant", "group", "session", "order", "condition", "phase", "repeat", "attempt", "counts", "trial")
 EVENTS = {
@@ -28,16 +28,19 @@ EVENTS = {
     "thing_class": "of what came near or was hit", "thing": "its name", "spoken": "words of a cue",
     "detail": "kind of a cue, or reason, state, device, result, or the experimenter's words",
 }
-DESCRIBED = {
-    "trial": "name of its folder", "world": "name or file", "world_hash": "of the world that was built", "seed": "draws the world, start and goal",
-    "result": "reached, timeout, refused, aborted or invalid", "reason": "of the result", "elapsed_s": "simulated time from start to goal, or to the end",
-    "shelf_collision_count": "collisions with shelves", "obstacle_collision_count": "collisions with everything else",
+ANSWERS = {
     "answer": "as given, or declined; pointed directions in whole degrees, counter-clockwise from straight ahead",
     "seconds": "from the question to the answer; of pointing, from the end of the question's words to the push; n/a where the experimenter typed",
     "truth": "of a probe: the answer that was true where the trial stopped; n/a where nobody can tell, or within a metre of the place",
     "error_deg": "of pointing: answer minus truth, in (-180, 180]", "correct": "of a probe's choice: yes or no",
-    "path_length_m": "way driven", "first_path_length_m": "of the first path", "started_utc": "ISO 8601", "bag": "ok, bad or none",
 }
+UNITS = {"onset_s": "s", "duration_s": "s", "elapsed_s": "s", "robot_x_m": "m", "robot_y_m": "m", "goal_x_m": "m", "goal_y_m": "m", "seconds": "s",
+         "error_deg": "deg"}
+
+
+def figures(count_trial):
+    """name, unit, meaning and source of each column that a trial's summary has."""
+    return json.loads(subprocess.run([str(count_trial), "figures"], capture_output=True, text=True, check=True).stdout)
 
 
 def trials(study, progress):
@@ -138,12 +141,13 @@ def scores(study, progress):
     return rows
 
 
-def write(study, progress):
-    """Returns the files that were written."""
+def write(study, progress, known):
+    """\\param known  of figures()
+    Returns the files that were written."""
     files = []
     for name, rows in (("trials", trials(study, progress)), ("answers", answers(study, progress)), ("events", events(study, progress))):
         columns = list(dict.fromkeys(column for row in rows for column in row)) or list(WHOSE)
-        for path, content in ((study.folder / f"{name}.csv", as_csv(columns, rows)), (study.folder / f"{name}.json", described(columns))):
+        for path, content in ((study.folder / f"{name}.csv", as_csv(columns, rows)), (study.folder / f"{name}.json", described(columns, known))):
             write_safely(path, content)
             files.append(path)
     return files
@@ -157,11 +161,16 @@ def as_csv(columns, rows):
     return text.getvalue()
 
 
-def described(columns):
-    """A column's meaning and unit, in the form of BIDS."""
+def described(columns, known):
+    """A column's meaning, unit and source, in the form of BIDS."""
+    figure = {one["name"]: one for one in known}
     entries = {}
     for column in columns:
-        entry = {"Description": COLUMNS.get(column) or EVENTS.get(column) or DESCRIBED.get(column) or column.replace("_", " ")}
-        unit = next((unit for end, unit in UNITS.items() if column.endswith(end)), None)
-        entries[column] = dict(entry, Units=unit) if unit else entry
+        one = figure.get(column, {})
+        entry = {"Description": COLUMNS.get(column) or EVENTS.get(column) or ANSWERS.get(column) or one.get("meaning") or column.replace("_", " ")}
+        if unit := UNITS.get(column) or one.get("unit"):
+            entry["Units"] = unit
+        if one.get("source"):
+            entry["Source"] = one["source"]
+        entries[column] = entry
     return json.dumps(entries, indent=1) + "\n"

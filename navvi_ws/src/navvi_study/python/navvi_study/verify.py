@@ -7,14 +7,14 @@ from .study import FIELDS
 EQUAL = "equal"
 
 
-def verify(study, progress, from_journal, from_bag):
-    """\\param from_journal, from_bag  the programs that count a trial's summary again
+def verify(study, progress, count_trial):
+    """\\param count_trial  the program that counts a trial's summary again
     Returns a sentence a trial, and how many trials do not agree."""
     sentences, bad = [], 0
     for row in table.trials(study, progress):
         attempt = table.attempt_of(progress, row)
         folder = study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial
-        found = {"journal": _journal(from_journal, folder), "bag": _bag(from_bag, folder, row), "table": _table(study, row, attempt)}
+        found = {"journal": _journal(count_trial, folder), "bag": _bag(count_trial, folder, row), "table": _table(study, row, attempt)}
         wrong = {name: words for name, words in found.items() if words != EQUAL and not words.startswith("no ")}
         bad += bool(wrong)
         sentences.append(f"{row['participant']}/{row['trial']}: " + ", ".join(f"{name} {words}" for name, words in found.items()) + ".")
@@ -39,8 +39,8 @@ def notes_and_answers(study, progress):
 
 def _journal(program, folder):
     if not (folder / "journal.csv").is_file():
-        return "no journal, as in a rehearsal"
-    result = subprocess.run([str(program), str(folder)], capture_output=True, text=True, errors="replace", check=False)
+        return "no journal"
+    result = subprocess.run([str(program), "journal", str(folder)], capture_output=True, text=True, errors="replace", check=False)
     return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[-3:])
 
 
@@ -48,7 +48,7 @@ def _bag(program, folder, row):
     if not (folder / "trial.bag").is_file():
         recorded = row.get("bag", "n/a")
         return "is missing" if recorded == "ok" else "no bag" if recorded in ("n/a", "none") else f"no whole bag, recorded as {recorded}"
-    result = subprocess.run([str(program), str(folder)], capture_output=True, text=True, errors="replace", check=False)
+    result = subprocess.run([str(program), "bag", str(folder)], capture_output=True, text=True, errors="replace", check=False)
     return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[:3])
 
 

@@ -56,23 +56,23 @@ def picture_for(plan, navvi):
 
 def _turns(row):
     """Of a row of the bench, which has them a minute."""
-    return float(row["turns"]) * float(row["time"]) / 60
+    return float(row["turns_per_min"]) * float(row["elapsed_s"]) / 60
 
 
 def compared(plan, driven):
     """Lines on the worlds, and whether the sets are alike."""
-    lines, sets = ["The reference driver: way in m, turns that were told, how often a mover drove within 5 m, time in s:"], {}
+    lines, sets = ["The reference driver: way in m, turns that were told, how often a mover came within 5 m, time in s:"], {}
     for name, worlds in [*((f"set {at}", worlds) for at, worlds in enumerate(plan.sets, 1)), ("reserve", plan.reserve),
                          ("practice", plan.practice.worlds if plan.practice else ()), ("probes", plan.probes.worlds if plan.probes else ())]:
         for world in worlds:
             row = driven[world]
-            lines.append(f"  {name}: {world}: {row['result']}, way {row['shortest']}, turns {_turns(row):.0f}, movers {row['passed']}, time {row['time']}.")
+            lines.append(f"  {name}: {world}: {row['result']}, way {float(row['shortest_path_m']):.1f}, turns {_turns(row):.0f}, movers {row['mover_proximity_count']}, time {float(row['elapsed_s']):.1f}.")
         if name.startswith("set"):
             rows = [driven[world] for world in worlds]
-            sets[name] = {"ways": sum(float(row["shortest"]) for row in rows), "turns": sum(round(_turns(row)) for row in rows),
-                          "times": sum(float(row["time"]) for row in rows)}
+            sets[name] = {"ways": sum(float(row["shortest_path_m"]) for row in rows), "turns": sum(round(_turns(row)) for row in rows),
+                          "times": sum(float(row["elapsed_s"]) for row in rows)}
             lines.append(f"  {name}: all together way {sets[name]['ways']:.1f}, turns {sets[name]['turns']}, "
-                         f"movers {sum(float(row['passed']) for row in rows):.0f}, time {sets[name]['times']:.1f}.")
+                         f"movers {sum(float(row['mover_proximity_count']) for row in rows):.0f}, time {sets[name]['times']:.1f}.")
     alike = True
     for what in ("ways", "turns", "times"):
         least, most = (choose(sets, key=lambda name: sets[name][what]) for choose in (min, max))

@@ -1,4 +1,5 @@
 #include "batch/world_cache.hpp"
+#include "record/events.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -11,8 +12,7 @@
 #include <navvi_people/loop/closed_loop.hpp>
 #include <sstream>
 
-#include "batch/loop_figures.hpp"
-#include "batch/loop_trace.hpp"
+#include "batch/loop_trial.hpp"
 #include "trial/platform.hpp"
 
 namespace navvi_study::batch {
@@ -35,19 +35,17 @@ class WorldCache : public testing::Test {
 
   /// All that is told in a trial of at most 40 s, and its row.
   [[nodiscard]] std::string play(const Cache* cache) const {
-    ClosedLoop loop(config_, NAVVI_PHRASES, std::nullopt, cache);
-    LoopFigures figures(40.0);
+    ClosedLoop loop(config_, NAVVI_PHRASES, cache);
+    trial::TrialNodeConfig config;
+    config.limit = 40.0;
+    LoopTrial trial(config, loop, NAVVI_PHRASES);
     std::ostringstream told;
     told.precision(17);
-    LoopTrace trace(told, 0.0, 40.0);
-    bool goes_on = true;
-    while (goes_on && loop.step()) {
-      goes_on = figures.watch(loop);
-      trace.watch(loop);
+    while (loop.step() && trial.watch()) {
       const auto& place = loop.told().odometry.pose.pose.position;
       told << place.x << ' ' << place.y << '\n';
     }
-    return told.str() + figures.row(loop).format();
+    return told.str() + record::events_csv(trial.finish()) + record::summary_csv(record::summarize(trial.finish()));
   }
   [[nodiscard]] std::vector<fs::path> files() const {
     std::vector<fs::path> out;

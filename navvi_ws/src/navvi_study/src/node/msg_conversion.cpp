@@ -1,6 +1,7 @@
 #include "node/msg_conversion.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace navvi_study::node {
 
@@ -52,6 +53,14 @@ std::optional<trial::ClockOffset> from_msg(const sensor_msgs::TimeReference& msg
       !std::all_of(msg.source.begin(), msg.source.end(), letter))
     return std::nullopt;
   return trial::ClockOffset{msg.source, to_ns(msg.time_ref) - to_ns(msg.header.stamp)};
+}
+
+std::optional<trial::Hands> from_msg(const sensor_msgs::Joy& msg) {
+  const auto inside = [](float axis) { return std::abs(axis) <= 1.0F; };
+  if (msg.axes.size() < 2 || !inside(msg.axes[0]) || !inside(msg.axes[1])) return std::nullopt;
+  return trial::Hands{to_ns(msg.header.stamp), static_cast<double>(msg.axes[1]),
+                      static_cast<double>(msg.axes[0]),
+                      !msg.buttons.empty() && msg.buttons[0] != 0};
 }
 
 navvi_msgs::TrialEvent to_msg(const record::Row& row) {

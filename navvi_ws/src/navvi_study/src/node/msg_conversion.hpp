@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <navvi_msgs/TrialEvent.h>
+#include <sensor_msgs/Joy.h>
 #include <sensor_msgs/TimeReference.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "trial/odometry_in_map.hpp"
+#include "trial/tracker.hpp"
 #include "trial/trial_monitor.hpp"
 
 namespace navvi_study::node {
@@ -28,6 +30,9 @@ using navvi_types::to_msg;
 /// nullopt if the clock's name is not 1 to 16 lower-case letters.
 /// \param msg  its stamp is the monotonic clock of this computer, as the journal's mono_ns
 [[nodiscard]] std::optional<trial::ClockOffset> from_msg(const sensor_msgs::TimeReference& msg);
+
+/// nullopt if it lacks the stick. Axes and buttons are those of feedback_node.
+[[nodiscard]] std::optional<trial::Hands> from_msg(const sensor_msgs::Joy& msg);
 
 [[nodiscard]] navvi_msgs::TrialEvent to_msg(const record::Row& row);
 /// nullopt if its fields are not in order. mono_ns is not in the message and stays 0.

@@ -121,7 +121,7 @@ class TrialNode {
         });
     goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     state_ = node_.advertise<navvi_msgs::TrialState>("navvi/trial_state", 1, true);
-    subscribe(config.operator_kind == "simulated", config.odom_frame);
+    subscribe(config.odom_frame);
     timer_ = node_.createWallTimer(ros::WallDuration(kStep), [this](auto&) {
       keeper_.step(now());
       if (keeper_.done()) ros::shutdown();
@@ -162,6 +162,7 @@ class TrialNode {
       show();
     };
     out.settings = settings_of_nodes;
+    out.phrases = [] { return ros::param::param<std::string>("navvi/phrases", ""); };
     out.start_recorder = [this](const std::filesystem::path& bag) {
       std::vector<std::string> topics;
       for (const char* topic : kRecorded) topics.push_back(node_.resolveName(topic));
@@ -178,7 +179,7 @@ class TrialNode {
     if (shown_) state_.publish(navvi_types::to_msg(*shown_));
   }
 
-  void subscribe(bool simulated, const std::string& odom_frame) {
+  void subscribe(const std::string& odom_frame) {
     take<nav_msgs::Odometry>("odom");
     take<navvi_msgs::Contact>("navvi/contacts");
     take<navvi_msgs::Proximity>("navvi/proximity");
@@ -201,7 +202,9 @@ class TrialNode {
     listen<diagnostic_msgs::DiagnosticArray>("/diagnostics", [this](auto& msg) {
       for (const auto& report : from_msg(msg)) keeper_.take(report, now());
     });
-    if (simulated) listen<sensor_msgs::Joy>("joy", [this](auto&) { keeper_.saw_operator(now()); });
+    listen<sensor_msgs::Joy>("joy", [this](auto& msg) {
+      if (const auto hands = from_msg(msg)) keeper_.take(*hands, now());
+    });
     subscribers_.push_back(node_.subscribe("move_base_simple/goal", 10, &TrialNode::on_goal, this));
   }
 

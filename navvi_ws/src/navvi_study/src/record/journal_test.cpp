@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "record/metrics.hpp"
+#include "record/figures.hpp"
 #include "record/trial_folder.hpp"
 
 namespace navvi_study::record {
@@ -217,7 +217,7 @@ TEST_F(Recovering, closes_a_trial_cut_anywhere_and_changes_nothing_the_second_ti
     ASSERT_EQ(first.problem, "") << length;
     const std::string after = bytes();
     ASSERT_EQ(read_journal(after).damage, "") << length;
-    const auto summary = summarize(read_journal(after).rows);
+    const auto summary = summarize({read_journal(after).rows});
     if (length >= first_row_end) {
       ASSERT_EQ(read_journal(after).rows.back().fields.get("result"), "aborted") << length;
     }

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "record/events.hpp"
 #include "record/journal.hpp"
-#include "record/metrics.hpp"
 
 namespace navvi_study::record {
 namespace fs = std::filesystem;
@@ -45,13 +45,23 @@ fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
   throw std::runtime_error("no trial: 999 trials of this second are in " + out.string());
 }
 
-navvi_files::Problem write_results(const fs::path& folder, const std::vector<Row>& rows,
-                                   const navvi_files::SystemCalls& calls) {
+Trial read_trial(const fs::path& folder) {
+  Trial trial;
+  if (const auto bytes = navvi_files::read_file(folder / "journal.csv"))
+    trial.rows = read_journal(*bytes).rows;
+  if (const auto bytes = navvi_files::read_file(folder / "track.npy"))
+    trial.track = parse_track(*bytes).value_or(Track());
+  return trial;
+}
+
+navvi_files::Problem write_results(const fs::path& folder, const Trial& trial,
+                                    const navvi_files::SystemCalls& calls) {
   if (const auto problem =
-          navvi_files::write_atomically(folder / "events.csv", events_csv(rows), calls)) {
+          navvi_files::write_atomically(folder / "events.csv", events_csv(trial), calls)) {
     return problem;
   }
-  return navvi_files::write_atomically(folder / "summary.csv", summary_csv(summarize(rows)), calls);
+  return navvi_files::write_atomically(folder / "summary.csv", summary_csv(summarize(trial)),
+                                        calls);
 }
 
 std::vector<std::string> recover_trials(const fs::path& out) {
@@ -71,7 +81,7 @@ std::vector<std::string> recover_trials(const fs::path& out) {
     std::string said = recovery.problem.empty() ? recovery.report : recovery.problem;
     if (recovery.problem.empty() && !recovery.rows.empty() &&
         (recovery.changed || !fs::exists(folder / "summary.csv"))) {
-      if (const auto problem = write_results(folder, recovery.rows)) said += *problem;
+      if (const auto problem = write_results(folder, {recovery.rows, read_trial(folder).track})) said += *problem;
       if (said.empty()) said = "Its summary was missing and is there again.";
     }
     if (!said.empty()) sentences.push_back(folder.filename().string() + ": " + said);

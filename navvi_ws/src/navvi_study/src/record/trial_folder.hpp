@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "record/row.hpp"
+#include "record/figures.hpp"
 
 namespace navvi_study::record {
 
@@ -19,9 +19,12 @@ namespace navvi_study::record {
 [[nodiscard]] std::filesystem::path create_trial_folder(const std::filesystem::path& out,
                                                         std::time_t utc);
 
-/// Writes events.csv and summary.csv from the journal's rows; each is replaced as a whole.
+/// The record in a folder: its journal up to the first damage, and its track.
+[[nodiscard]] Trial read_trial(const std::filesystem::path& folder);
+
+/// Writes events.csv and summary.csv; each is replaced as a whole.
 [[nodiscard]] navvi_files::Problem write_results(
-    const std::filesystem::path& folder, const std::vector<Row>& rows,
+    const std::filesystem::path& folder, const Trial& trial,
     const navvi_files::SystemCalls& calls = navvi_files::SystemCalls::real());
 
 /// Brings every trial under `out` in order that a crash left open. \return sentences, one a trial

@@ -8,6 +8,7 @@
 
 #include "node/msg_conversion.hpp"
 #include "recount/bag_message.hpp"
+#include "trial/tracker.hpp"
 
 namespace navvi_study::recount {
 namespace {
@@ -77,8 +78,11 @@ class Recount {
       odom_frame_ = settings.substr(at + name.size(), settings.find(' ', at) - at - name.size());
   }
 
-  void replay(const rosbag::Bag& bag) {
+  void replay(const rosbag::Bag& bag, const std::filesystem::path& phrases) {
     monitor_ = trial::TrialMonitor(config_of(start_));
+    if (const auto name = start_.fields.find("phrases"))
+      monitor_.understand(listener_.emplace(phrases / *name));
+    tracker_.start(start_.sim_ns);
     // Stamps decide what belongs to the trial, so what came before it sets the scene first.
     const trial::TrialStart start = start_of(start_);
     for (const bool before : {true, false}) {
@@ -101,7 +105,7 @@ class Recount {
     push({"TRIAL_END", fields, end_.sim_ns});
   }
 
-  [[nodiscard]] const std::vector<record::Row>& rows() const { return rows_; }
+  [[nodiscard]] record::Trial trial() { return {rows_, tracker_.rows_until(end_.sim_ns)}; }
 
  private:
   void push(const trial::Event& event) {
@@ -124,6 +128,7 @@ class Recount {
   void observe(const Report& report, bool before) {
     if ((report.stamp <= start_.sim_ns) != before) return;
     if (!before) change_goals_until(report.stamp - 1);
+    tracker_.observe(report);
     for (const auto& event : monitor_.observe(report)) push(event);
   }
 
@@ -146,13 +151,20 @@ class Recount {
     }
     // The only odometry in the bag, whatever the robot's topic is.
     with<nav_msgs::Odometry>(item, "", [&](const auto& msg) {
-      if (const auto report = node::from_msg(msg)) observe_all(places_.take(*report));
+      const auto report = node::from_msg(msg);
+      if (!report) return;
+      if ((report->stamp <= start_.sim_ns) == before) tracker_.take_odometry(*report);
+      observe_all(places_.take(*report));
     });
     with<diagnostic_msgs::DiagnosticArray>(
         item, "/diagnostics", [&](const auto& msg) { observe_all(node::from_msg(msg)); });
     const auto observe_one = [&](const auto& msg) {
       if (const auto report = node::from_msg(msg)) observe(*report, before);
     };
+    with<sensor_msgs::Joy>(item, "/joy", [&](const auto& msg) {
+      const auto hands = node::from_msg(msg);
+      if (hands && (hands->stamp <= start_.sim_ns) == before) tracker_.observe(*hands);
+    });
     with<navvi_msgs::Contact>(item, "/navvi/contacts", observe_one);
     with<navvi_msgs::Proximity>(item, "/navvi/proximity", observe_one);
     with<navvi_msgs::Guidance>(item, "/navvi/guidance", observe_one);
@@ -162,6 +174,8 @@ class Recount {
   }
 
   trial::TrialMonitor monitor_{trial::TrialMonitorConfig()};
+  trial::Tracker tracker_;
+  std::optional<navvi_people::people::Listener> listener_;
   trial::OdometryInMap places_;
   std::string odom_frame_ = "odom";
   record::Row start_;
@@ -174,12 +188,13 @@ class Recount {
 
 }  // namespace
 
-std::vector<record::Row> rows_from_bag(const std::filesystem::path& path) {
+record::Trial trial_from_bag(const std::filesystem::path& path,
+                             const std::filesystem::path& phrases) {
   rosbag::Bag bag;
   bag.open(path.string(), rosbag::bagmode::Read);
   Recount recount(told_in(bag));
-  recount.replay(bag);
-  return recount.rows();
+  recount.replay(bag, phrases);
+  return recount.trial();
 }
 
 }  // namespace navvi_study::recount

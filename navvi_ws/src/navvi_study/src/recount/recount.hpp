@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "record/row.hpp"
+#include "record/figures.hpp"
 
 namespace navvi_study::recount {
 
@@ -11,6 +11,8 @@ namespace navvi_study::recount {
 /// are taken from navvi/events; what happened between is recounted from the other topics. \throws
 /// std::runtime_error with a sentence if the bag holds no whole trial. Rosbag's reader can crash on
 /// a damaged file: call this in a child process.
-[[nodiscard]] std::vector<record::Row> rows_from_bag(const std::filesystem::path& bag);
+/// \param phrases  folder of the files of what is spoken
+[[nodiscard]] record::Trial trial_from_bag(const std::filesystem::path& bag,
+                                           const std::filesystem::path& phrases);
 
 }  // namespace navvi_study::recount

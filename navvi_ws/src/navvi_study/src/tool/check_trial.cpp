@@ -9,7 +9,7 @@
 #include <string>
 
 #include "record/child_process.hpp"
-#include "record/metrics.hpp"
+#include "record/figures.hpp"
 #include "recount/repetition.hpp"
 
 namespace {

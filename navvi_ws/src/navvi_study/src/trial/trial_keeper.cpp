@@ -7,9 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "record/metrics.hpp"
 #include "record/trial_folder.hpp"
-#include "trial/platform.hpp"
 
 namespace navvi_study::trial {
 namespace fs = std::filesystem;
@@ -22,9 +20,9 @@ constexpr double kDrain = 0.3;                   // s, for reports on their way 
 constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
 constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
 
-std::string list_of(const std::vector<std::string>& words, const char* between = ", ") {
+std::string list_of(const std::vector<std::string>& words) {
   std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
+  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
 }
 
@@ -32,19 +30,6 @@ std::string place_of(const Eigen::Vector2d& point) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(2) << point.x() << ", " << point.y();
   return text.str();
-}
-
-void set_study(record::Fields& fields, const StudyConfig& study) {
-  fields.set("study", study.name).set("plan", study.plan).set("group", study.group);
-  fields.set("condition", study.condition).set("phase", study.phase);
-  fields.set("replaces", study.replaces);
-  const auto set = [&](const char* name, int count) {
-    fields.set(name, count > 0 ? std::to_string(count) : "n/a");
-  };
-  set("session", study.session);
-  set("condition_order", study.order);
-  set("repeat", study.repeat);
-  set("attempt", study.attempt);
 }
 
 }  // namespace
@@ -72,6 +57,7 @@ void TrialKeeper::enter(Phase phase) {
 void TrialKeeper::take(const Odometry& odometry, const Moment& now) {
   now_ = now;
   readiness_.saw_odometry(now.wall());
+  tracker_.take_odometry(odometry);
   for (const auto& place : places_.take(odometry)) observe(place);
 }
 
@@ -156,6 +142,7 @@ bool TrialKeeper::may_say(double pause) {
 
 void TrialKeeper::step(const Moment& now) {
   now_ = now;
+  keep_track(monitor_.latest() - kSecond);
   switch (phase_) {
     case Phase::waiting:
       wait();
@@ -212,6 +199,7 @@ void TrialKeeper::arm() {
     kept_.folder = record::create_trial_folder(config_.out, now_.utc_ns / kSecond);
     kept_.journal = std::make_unique<record::Journal>(
         kept_.folder, kept_.folder.filename().string(), record::Journal::kMinFree, calls_);
+    kept_.track_file = std::make_unique<record::TrackFile>(kept_.folder);
   } catch (const std::runtime_error& error) {
     tell(Tone::fatal, error.what());
     return leave(3);
@@ -254,6 +242,9 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
   const Eigen::Vector2d& goal = goals_.now.place;
   const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
   monitor_.start(beginning);
+  tracker_.start(beginning.stamp);
+  kept_.track.clear();
+  listen();
   flow_.start(beginning.stamp);
   if (const auto deadline = flow_.deadline()) monitor_.end(*deadline);
   began_ = now_;
@@ -275,16 +266,9 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
 
 record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   record::Fields fields = monitor_.place();
-  fields.set("world", offered_.scenario ? offered_.scenario->world : "n/a");
-  fields.set("world_hash", offered_.scenario ? offered_.scenario->world_hash : "n/a");
-  fields.set("seed", offered_.scenario ? std::to_string(offered_.scenario->seed) : "n/a");
-  fields.set("operator", config_.operator_kind).set("participant", config_.participant);
-  fields.set("profile", config_.profile).set("version", config_.version);
-  fields.set("parameters", config_.parameters.empty() ? "none" : config_.parameters);
   kept_.settings = outlets_.settings();
-  std::vector<std::string> settings;
-  for (const auto& [name, value] : kept_.settings) settings.push_back(name + "=" + value);
-  fields.set("settings", list_of(settings, " "));
+  add_conditions(fields, config_, offered_.scenario, kept_.settings, beginning,
+                 listener_ ? outlets_.phrases().filename().string() : "");
   fields.set("audio", readiness_.state_of("audio"));
   fields.set("pad", simulated() ? "simulated" : readiness_.state_of("pad"));
   // s of ROS time; the clock runs from TRIAL_START, which follows within a few hundredths of one
@@ -294,23 +278,26 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   fields.set("pad_name", readiness_.trait("pad", "name"));
   fields.set("pad_firmware", readiness_.trait("pad", "firmware"));
   fields.set("audio_device", readiness_.trait("audio", "device"));
-  fields.set("cpu", processor()).set("compiler", compiler());
-  fields.set("bullet", bullet());
-  set_study(fields, config_.study);
-  fields.set("goal_x", beginning.goal.x(), 6).set("goal_y", beginning.goal.y(), 6);
-  fields.set("limit", config_.limit);
-  fields.set("contacts", config_.contacts);
-  fields.set("contact_seq", std::uint64_t{beginning.contact_seq});
-  fields.set("shelf_contacts", beginning.shelf_count);
-  fields.set("obstacle_contacts", beginning.obstacle_count);
-  const TrialMonitorConfig& monitor = config_.monitor;
-  fields.set("obstacle_range", monitor.obstacle_range).set("shelf_range", monitor.shelf_range);
-  fields.set("leave_margin", monitor.leave_margin).set("leave_time", monitor.leave_time);
-  fields.set("center_range", monitor.center_range).set("arrival_range", monitor.arrival_range);
-  std::vector<std::string> stuck;
-  for (const CueKind kind : beginning.stuck) stuck.emplace_back(to_string(kind));
-  fields.set("stuck_cues", list_of(stuck));
   return fields;
+}
+
+/// By the words alone it is known where a sentence leads.
+void TrialKeeper::listen() {
+  const fs::path phrases = outlets_.phrases();
+  if (listener_ || phrases.empty()) return;
+  try {
+    monitor_.understand(listener_.emplace(phrases));
+  } catch (const std::exception& error) {
+    tell(Tone::warning, std::string("The record lacks what sentences ask for: ") + error.what());
+  }
+}
+
+/// What is stamped later may still come.
+void TrialKeeper::keep_track(std::int64_t until) {
+  const record::Track rows = tracker_.rows_until(std::min(until, monitor_.ended().value_or(until)));
+  if (!active() || rows.empty()) return;
+  kept_.track.insert(kept_.track.end(), rows.begin(), rows.end());
+  if (const auto problem = kept_.track_file->append(rows)) tell(Tone::error, *problem);
 }
 
 void TrialKeeper::ask_for_goal() {
@@ -393,6 +380,7 @@ void TrialKeeper::end(const Ending& ending) {
 }
 
 void TrialKeeper::write_end() {
+  keep_track(ending_.stamp);
   // The goal may have been reached just before the end that was called first.
   ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), kept_.journal->full());
   record::Fields fields = monitor_.end_fields();
@@ -424,7 +412,8 @@ bool TrialKeeper::record(const Event& event) {
 }
 
 void TrialKeeper::write_summary() {
-  auto rows = kept_.journal->rows();
+  record::Trial kept = trial();
+  auto& rows = kept.rows;
   if (kept_.journal->broken()) {
     record::Row last =
         rows.empty() ? record::Row{kept_.folder.filename().string(), 0, 0, 0, "", {}} : rows.back();
@@ -432,7 +421,7 @@ void TrialKeeper::write_summary() {
     last.fields = record::Fields().set("result", "invalid").set("reason", "journal_broken");
     rows.push_back(last);
   }
-  if (const auto problem = record::write_results(kept_.folder, rows)) {
+  if (const auto problem = record::write_results(kept_.folder, kept)) {
     tell(Tone::error, *problem);
     exit_.code = 4;
   }
@@ -452,7 +441,7 @@ void TrialKeeper::finish() {
     write_summary();
   }
   std::string screen = "Trial ended: " + kept_.folder.string();
-  for (const auto& [name, cell] : record::summarize(kept_.journal->rows()))
+  for (const auto& [name, cell] : record::summarize(trial()))
     screen += "\n  " + name + ": " + cell;
   tell(Tone::info, screen);
   kept_.journal.reset();
@@ -470,6 +459,7 @@ void TrialKeeper::leave(int exit_code) {
 void TrialKeeper::abandon(int exit_code) {
   kept_.bag = BagWatch();
   kept_.journal.reset();
+  kept_.track_file.reset();
   std::error_code error;
   fs::remove_all(kept_.folder, error);
   leave(exit_code);

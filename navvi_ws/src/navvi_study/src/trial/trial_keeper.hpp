@@ -10,10 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "record/figures.hpp"
 #include "record/journal.hpp"
 #include "trial/bag_watch.hpp"
+#include "trial/conditions.hpp"
 #include "trial/odometry_in_map.hpp"
 #include "trial/readiness.hpp"
+#include "trial/tracker.hpp"
 #include "trial/trial_flow.hpp"
 #include "trial/trial_monitor.hpp"
 #include "trial/trial_node_config.hpp"
@@ -36,9 +39,6 @@ struct ChosenGoal {
   std::int64_t stamp = 0;  ///< ns, of the message with which it came; 0: the world's own goal
 };
 
-/// The parameters that nodes were given, by names such as nav/mesh/climb.
-using Settings = std::map<std::string, std::string>;
-
 /// Runs trials one after the other: waits until every part is there, records, sets the goal, keeps
 /// the journal, ends, and writes the results.
 class TrialKeeper {
@@ -52,6 +52,8 @@ class TrialKeeper {
     std::function<void(Tone, const std::string&)> tell;                      ///< for the screen
     std::function<void(TrialState::State)> show = [](TrialState::State) {};  ///< on each change
     std::function<Settings()> settings = [] { return Settings(); };
+    /// File of what is spoken; empty where it is not known.
+    std::function<std::filesystem::path()> phrases = [] { return std::filesystem::path(); };
     /// Begins a bag at that path; nullptr where none is wanted.
     std::function<std::unique_ptr<BagRecorder>(const std::filesystem::path&)> start_recorder;
   };
@@ -78,8 +80,11 @@ class TrialKeeper {
   void take(const TrialRequest& request, const Moment& now);
   /// Another node has set a goal. \param stamp  ns, of its message
   void take_goal(const Eigen::Vector2d& goal, const Moment& now, std::int64_t stamp = 0);
-  /// A simulated operator has moved its hands.
-  void saw_operator(const Moment& now) { operator_seen_ = now.wall(); }
+  /// For the track; a simulated operator that moves them is alive.
+  void take(const Hands& hands, const Moment& now) {
+    operator_seen_ = now.wall();
+    tracker_.observe(hands);
+  }
   /// The bag's recorder listens.
   void recorder_listens(const Moment& now) { kept_.bag.hears(now.wall()); }
 
@@ -101,6 +106,8 @@ class TrialKeeper {
   struct Kept {
     std::filesystem::path folder;
     std::unique_ptr<record::Journal> journal;
+    std::unique_ptr<record::TrackFile> track_file;
+    record::Track track;
     BagWatch bag;
     // Both are journalled.
     bool bag_lost = false;
@@ -139,6 +146,9 @@ class TrialKeeper {
   void change_goal(const ChosenGoal& chosen);
   [[nodiscard]] record::Fields conditions(const TrialStart& beginning);
   [[nodiscard]] Signs signs() const;
+  void listen();
+  void keep_track(std::int64_t until);
+  [[nodiscard]] record::Trial trial() const { return {kept_.journal->rows(), kept_.track}; }
   void watch();
   void watch_bag();
   void watch_feedback(double silence);
@@ -171,6 +181,8 @@ class TrialKeeper {
 
   Readiness readiness_;
   TrialMonitor monitor_;
+  Tracker tracker_;
+  std::optional<navvi_people::people::Listener> listener_;
   OdometryInMap places_;
   Phase phase_ = Phase::waiting;
   double phase_since_ = 0.0;  ///< s, monotonic, as are all times below
@@ -189,6 +201,7 @@ class TrialKeeper {
 
 template <typename Report>
 void TrialKeeper::observe(const Report& report) {
+  tracker_.observe(report);
   for (const auto& event : monitor_.observe(report)) {
     if (active()) record(event);
   }

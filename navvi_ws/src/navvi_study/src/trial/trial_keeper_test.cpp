@@ -11,6 +11,8 @@
 #include <sstream>
 #include <thread>
 
+#include "record/trial_folder.hpp"
+
 namespace navvi_study::trial {
 namespace {
 
@@ -158,6 +160,26 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   EXPECT_EQ(events_.back(), "BAG_CLOSED");
   EXPECT_NE(content("summary.csv").find("reached"), std::string::npos);
   EXPECT_NE(said_.find("result: reached"), std::string::npos) << said_;
+}
+
+TEST_F(Trials, leave_a_track_that_grows_while_they_run_and_figures_of_it) {
+  begin();
+  keeper_->take(kScenario, now());
+  live(3.0);
+  live(3.0, State::following, kScenario.goal);
+  keeper_->take(Hands{now().ros_ns, 0.5, 0.0, false}, now());
+  const auto before = record::parse_track(content("track.npy"));
+  ASSERT_TRUE(before);
+  EXPECT_GT(before->size(), 20u) << "what a killed node leaves";
+  live(3.0, State::following, kScenario.goal);
+  live(9.0, State::arrived, kScenario.goal);
+  const record::Trial trial = record::read_trial(folders().back());
+  ASSERT_GT(trial.track.size(), before->size());
+  EXPECT_GE(trial.track.front().time, trial.begin());
+  EXPECT_LE(trial.track.back().time, trial.end());
+  EXPECT_EQ(trial.track.back().stick_forward, 0.5F);
+  EXPECT_EQ(trial.track.front().odom_x, trial.track.front().x);
+  EXPECT_EQ(content("summary.csv"), record::summary_csv(record::summarize(trial)));
 }
 
 TEST_F(Trials, name_another_clock_while_they_run_and_leave_it_out_of_the_events) {

@@ -5,7 +5,7 @@
 #include <navvi_types/angles.hpp>
 #include <utility>
 
-#include "record/metrics.hpp"
+#include "record/figures.hpp"
 
 namespace navvi_study::trial {
 namespace {
@@ -175,6 +175,9 @@ void TrialMonitor::collision(const Contact* contact, bool shelf, std::int64_t st
     fields.set("x", contact->robot.position.x()).set("y", contact->robot.position.y());
     fields.set("class", to_string(contact->thing_class)).set("thing", contact->name);
     fields.set("speed", contact->speed);
+    const auto felt = felt_.find(contact->id);
+    const std::int64_t since = felt != felt_.end() ? felt->second : stamp;
+    fields.set("felt", 1e-9 * static_cast<double>(stamp - since));
   } else {
     fields.set("made_good", "yes");
   }
@@ -213,6 +216,12 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
 }
 
 std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
+  std::map<std::uint32_t, std::int64_t> felt;
+  for (const auto& thing : proximity.things) {
+    const auto known = felt_.find(thing.id);
+    felt[thing.id] = known != felt_.end() ? known->second : proximity.stamp;
+  }
+  felt_ = std::move(felt);
   if (!counts(proximity.stamp)) return {};
   driven_.near = proximity;
   std::vector<Event> events;
@@ -295,6 +304,7 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
       tally_.first_path_length = guidance.goal_distance;
       record::Fields fields = place();
       fields.set("first_path_length", guidance.goal_distance);
+      fields.set("shortest_path", guidance.shortest_length);
       events.push_back({"ROUTE", fields.set("plan_time", guidance.plan_time, 6), guidance.stamp});
     }
   }
@@ -362,7 +372,21 @@ std::optional<Event> TrialMonitor::row_of(const CueEvent& cue) {
   fields.set("kind", cue.word())
       .set("text", cue.text.empty() ? "n/a" : cue.text)
       .set("stage", to_string(cue.stage));
+  if (begins) understand(cue, fields);
   return Event{begins ? "CUE" : "CUE_END", fields, cue.stamp, false};
+}
+
+/// What the sentence asks for in its last part, and of a direction its hour and how far away.
+void TrialMonitor::understand(const CueEvent& cue, record::Fields& fields) const {
+  if (listener_ == nullptr || !cue.kind()) return;
+  const auto parts = listener_->understand(*cue.kind(), cue.text);
+  if (parts.empty()) return;
+  const auto asks = parts.back().asks;
+  fields.set("asks", asks == navvi_types::Ask::turn ? "turn"
+                     : asks == navvi_types::Ask::go ? "go"
+                                                    : "other");
+  fields.set("hour", static_cast<std::uint64_t>(parts.back().hour));
+  if (parts.back().distance) fields.set("within", *parts.back().distance);
 }
 
 std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {

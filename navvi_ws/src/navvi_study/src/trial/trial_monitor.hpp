@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <navvi_people/people/listener.hpp>
 #include <navvi_types/cue_event.hpp>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
@@ -108,6 +109,9 @@ class TrialMonitor {
  public:
   explicit TrialMonitor(const TrialMonitorConfig& config) : config_(config) {}
 
+  /// From now on rows of sentences hold what these ask for. \param listener  lasts as long
+  void understand(const navvi_people::people::Listener& listener) { listener_ = &listener; }
+
   /// Begins a trial. What was observed before is only what things are compared with.
   void start(const TrialStart& start);
   /// From now on another goal counts. \param stamp  when it was set
@@ -191,6 +195,7 @@ class TrialMonitor {
   /// Whether a report with this stamp belongs to the trial.
   bool counts(std::int64_t stamp);
   [[nodiscard]] const char* zone(double lateral) const;
+  void understand(const CueEvent& cue, record::Fields& fields) const;
   void collision(const Contact* contact, bool shelf, std::int64_t stamp,
                  std::vector<Event>& events);
   void arrive(const Guidance& guidance, std::vector<Event>& events);
@@ -200,6 +205,7 @@ class TrialMonitor {
   [[nodiscard]] bool about_this_goal(const Guidance& guidance);
 
   TrialMonitorConfig config_;
+  const navvi_people::people::Listener* listener_ = nullptr;
   std::optional<TrialStart> start_;
   std::optional<std::int64_t> end_;
   std::int64_t latest_ = 0;
@@ -207,6 +213,7 @@ class TrialMonitor {
   Driven driven_;
   Hits hits_;
   std::map<std::uint32_t, Inside> inside_;
+  std::map<std::uint32_t, std::int64_t> felt_;  ///< ns, since when in reach, by thing
   Guided guided_;
   std::set<std::uint32_t> stuck_cues_;
   std::map<navvi_types::Modality, std::string>

@@ -4,6 +4,7 @@
 #include <nav_msgs/Odometry.h>
 #include <navvi_msgs/Contact.h>
 #include <navvi_msgs/Cue.h>
+#include <navvi_msgs/DriveState.h>
 #include <navvi_msgs/Guidance.h>
 #include <navvi_msgs/Obstacles.h>
 #include <navvi_msgs/Proximity.h>
@@ -53,11 +54,12 @@ class ClosedLoop {
   /// tell.
   struct Messages {
     nav_msgs::Odometry odometry;
+    navvi_msgs::DriveState drive;
     std::vector<navvi_msgs::Contact> contacts;
     std::optional<navvi_msgs::Proximity> proximity;
     std::optional<navvi_msgs::Obstacles> obstacles;
     std::optional<navvi_msgs::Guidance> guidance;
-    std::vector<navvi_msgs::Cue> cues;  ///< spoken ones and sounds
+    std::vector<navvi_msgs::Cue> cues;
     people::Felt motors;                ///< as they are
   };
 
@@ -79,6 +81,8 @@ class ClosedLoop {
   [[nodiscard]] double dt() const { return config_.sim.life.step; }
   /// True once navigation has been given the goal.
   [[nodiscard]] bool begun() const { return begun_; }
+  [[nodiscard]] const ClosedLoopConfig& config() const { return config_; }
+  [[nodiscard]] const navvi_sim::WorldDescription& world() const { return setting_.world; }
   [[nodiscard]] const navvi_sim::scenario::StartAndGoal& scenario() const {
     return setting_.scenario;
   }

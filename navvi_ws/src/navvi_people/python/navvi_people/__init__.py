@@ -1,0 +1,1 @@
+"""Batches of simulated people, and what their tables show."""

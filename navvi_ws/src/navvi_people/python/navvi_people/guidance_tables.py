@@ -1,0 +1,177 @@
+"""The tables of a batch of trials (./navvi batch), as lines of Markdown.
+
+Each person and condition, and, over the same worlds and seeds, the mean of what a condition changes beside the condition
+"default" with its 95 % interval (bootstrap of the pairs).
+"""
+import csv
+import random
+import statistics
+from pathlib import Path
+from typing import NamedTuple
+
+MEASURES = {"contacts": "contacts a trial", "elapsed_s": "time, s", "spl": "SPL"}
+BETTER = {"contacts": -1.0, "elapsed_s": -1.0, "spl": 1.0}
+TYPES = ("able", "typical", "struggling")
+DRAWS = 2000
+
+
+class Goal(NamedTuple):
+    measure: str
+    text: str
+    form: str
+    most: tuple  # of each type; for SPL the least
+
+
+GOALS = (
+    Goal("contacts", "contacts a trial", ".3f", (0.02, 0.05, 0.3)),
+    Goal("spl", "SPL", ".3f", (0.95, 0.93, 0.88)),
+    Goal("over_sighted", "time over that of the same hand led by eyes", ".2f", (1.2, 1.5, 2.2)),
+    Goal("residual_deg", "left of a turn, deg, median", ".1f", (4.0, 8.0, 12.0)),
+    Goal("cues_per_min", "utterances a minute", ".1f", (8.0, 8.0, 8.0)),
+)
+
+
+# Columns as batches of before 1.0.0 name them.
+RENAMED = {"time": "elapsed_s", "driven": "path_length_m", "residual": "residual_deg", "cues": "cues_per_min", "still": "still_s"}
+
+
+def read(folder):
+    with open(Path(folder) / "trials.csv", encoding="utf-8", newline="") as file:
+        return [{RENAMED.get(name, name): cell for name, cell in row.items()} for row in csv.DictReader(file)]
+
+
+def ordered(rows, name):
+    return list(dict.fromkeys(row[name] for row in rows))
+
+
+def of(rows, person, condition):
+    return [row for row in rows if row["person"] == person and row["condition"] == condition]
+
+
+def values(rows, name):
+    """Of the trials that have it."""
+    return [float(row[name]) for row in rows if row.get(name) not in (None, "", "n/a")]
+
+
+def differences(rows, person, condition, measure):
+    """Over the trials that both conditions have."""
+    def by_trial(name):
+        return {(row["world"], row["seed"], row["person_seed"]): float(row[measure]) for row in of(rows, person, name)}
+    there, base = by_trial(condition), by_trial("default")
+    return [there[key] - base[key] for key in there if key in base]
+
+
+def interval(numbers, estimate=statistics.fmean):
+    """The estimate and its 95 % interval; the draws are the same each time."""
+    draw = random.Random(1)
+    drawn = sorted(estimate(draw.choices(numbers, k=len(numbers))) for _ in range(DRAWS))
+    return estimate(numbers), drawn[int(0.025 * DRAWS)], drawn[int(0.975 * DRAWS)]
+
+
+def shown(value, low, high, form="+.2f"):
+    return f"{value:{form}} [{low:{form}}, {high:{form}}]"
+
+
+def verdict(measure, low, high):
+    """better, worse, or nothing that the interval excludes."""
+    if low <= 0.0 <= high:
+        return "-"
+    return "better" if low * BETTER[measure] > 0.0 else "worse"
+
+
+def head(*titles):
+    return ["| " + " | ".join(titles) + " |", "|" + "---|" * len(titles)]
+
+
+def line(*cells):
+    return "| " + " | ".join(str(cell) for cell in cells) + " |"
+
+
+def median(rows, name, form):
+    numbers = values(rows, name)
+    return format(statistics.median(numbers), form) if numbers else "-"
+
+
+def per_100m(rows):
+    return 100.0 * sum(int(row["contacts"]) for row in rows) / max(1.0, sum(float(row["path_length_m"]) for row in rows))
+
+
+def changed_conditions(rows):
+    return [condition for condition in ordered(rows, "condition") if condition not in ("default", "sighted")]
+
+
+def guidance(rows):
+    lines = head("person", "condition", "trials", "reached", "clean", "contacts", "per 100 m", "time, s", "over sighted", "SPL",
+                 "left of turns, deg", "utterances/min", *(f"change of {text}" for text in MEASURES.values()))
+    for person in ordered(rows, "person"):
+        for condition in ordered(rows, "condition"):
+            own = of(rows, person, condition)
+            mean = {name: statistics.fmean(float(row[name]) for row in own) for name in [*MEASURES, "cues_per_min"]}
+            changes = [""] * 3 if condition in ("default", "sighted") else [
+                shown(*interval(differences(rows, person, condition, name))) for name in MEASURES]
+            lines.append(line(person, condition, len(own), sum(row["result"] == "reached" for row in own),
+                              sum(row["contacts"] == "0" for row in own), f"{mean['contacts']:.2f}", f"{per_100m(own):.2f}", f"{mean['elapsed_s']:.0f}",
+                              median(own, "over_sighted", ".2f"), f"{mean['spl']:.3f}", median(own, "residual_deg", ".1f"),
+                              "-" if condition == "sighted" else f"{mean['cues_per_min']:.1f}", *changes))
+    return lines
+
+
+def goals(rows):
+    """What was aimed at beside what is, each with its interval, and whether the figure meets the goal."""
+    lines = head("measure", *TYPES)
+    for goal in GOALS:
+        cells = []
+        for person, bound in zip(TYPES, goal.most):
+            estimate = statistics.median if goal.measure == "residual_deg" else statistics.fmean
+            value, low, high = interval(values(of(rows, person, "default"), goal.measure), estimate)
+            least = goal.measure == "spl"
+            met = value >= bound if least else value <= bound
+            cells.append(f"{shown(value, low, high, goal.form)}, goal {'at least' if least else 'at most'} {bound:g}: {'met' if met else 'missed'}")
+        lines.append(line(goal.text, *cells))
+    worse = []
+    for person in TYPES:
+        lost = [text for name, text in MEASURES.items()
+                if verdict(name, *interval(differences(rows, person, "sounds_off", name))[1:]) == "better"]
+        worse.append("missed: " + ", ".join(lost) if lost else "met")
+    lines.append(line("in no measure worse than words and touch alone (`sounds_off`)", *worse))
+    return lines
+
+
+def flips(rows):
+    """The conclusions from person to person: better or worse than default where the interval excludes none."""
+    people = ordered(rows, "person")
+    lines = head("condition, beside default", "measure", *people, "turns round")
+    for condition in changed_conditions(rows):
+        for name, text in MEASURES.items():
+            verdicts, cells = [], []
+            for person in people:
+                found = interval(differences(rows, person, condition, name))
+                verdicts.append(verdict(name, *found[1:]))
+                cells.append(shown(*found) + (f" {verdicts[-1]}" if verdicts[-1] != "-" else ""))
+            lines.append(line(condition, text, *cells, "yes" if {"better", "worse"} <= set(verdicts) else "no"))
+    return lines
+
+
+def failures(rows):
+    """One trial of each class, the first of the batch, with the words that run it again and trace it."""
+    def number(row, name):
+        return float(row[name]) if row.get(name) not in (None, "", "n/a") else 0.0
+    movers = ("worker", "forklift", "pallet_robot")
+    led = [row for row in rows if row["condition"] == "default"]
+    classes = {
+        "hits a shelf or a wall": lambda row: "shelf" in row["hits"] or "wall" in row["hits"],
+        "hits what moves": lambda row: any(name in row["hits"] for name in movers),
+        "hits another thing": lambda row: row["hits"] != "-" and not any(name in row["hits"] for name in ("shelf", "wall", *movers)),
+        "does not reach the goal": lambda row: row["result"] != "reached",
+        "needs more than three times as long as led by eyes": lambda row: number(row, "over_sighted") > 3.0,
+        "turns that leave more than 20 deg, the median": lambda row: number(row, "residual_deg") > 20.0,
+        "stands for more than a minute": lambda row: number(row, "still_s") > 60.0,
+        "pushes in vain without a word": lambda row: number(row, "speechless") > 0.0,
+    }
+    lines = head("class", "trials of " + str(len(led)), "the first, once more with its record")
+    for name, belongs in classes.items():
+        found = [row for row in led if belongs(row)]
+        again = "-" if not found else (f"`./navvi batch --worlds={found[0]['world']} --seeds={found[0]['seed']} --people={found[0]['person']}:{found[0]['person_seed']} "
+                                       "--limit=600 --records=all --out=again`")
+        lines.append(line(name, len(found), again))
+    return lines

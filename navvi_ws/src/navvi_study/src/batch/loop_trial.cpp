@@ -1,0 +1,145 @@
+#include "batch/loop_trial.hpp"
+
+#include <navvi_config/reader.hpp>
+#include <navvi_types/msg_conversion.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "batch/loop_bag.hpp"
+#include "record/journal.hpp"
+#include "record/trial_folder.hpp"
+
+namespace navvi_study::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every parameter of the loop, as those of nodes stand in a live record.
+trial::Settings settings_of(navvi_people::loop::ClosedLoopConfig config) {
+  trial::Settings settings;
+  const auto table = navvi_config::table_of([&](auto& visit) { config.describe(visit); });
+  for (const navvi_config::Row& row : table)
+    settings[row.key] = row.default_value;
+  return settings;
+}
+
+void must(const navvi_files::Problem& problem) {
+  if (problem) throw std::runtime_error(*problem);
+}
+
+}  // namespace
+
+LoopTrial::LoopTrial(trial::TrialNodeConfig config, const ClosedLoop& loop, fs::path phrases)
+    : config_(std::move(config)),
+      loop_(loop),
+      phrases_(std::move(phrases)),
+      monitor_(config_.monitor),
+      flow_(config_.limit) {
+  config_.operator_kind = "simulated";
+  monitor_.understand(loop.person().listener());
+}
+
+LoopTrial::~LoopTrial() = default;
+
+void LoopTrial::keep(const fs::path& folder, std::int64_t utc_ns) {
+  folder_ = folder;
+  utc_ns_ = utc_ns;
+  fs::create_directories(folder);
+  bag_ = std::make_unique<LoopBag>(folder / "trial.bag", loop_);
+}
+
+void LoopTrial::push(const trial::Event& event) {
+  if (!begun_) return;
+  record::Row row{folder_.filename().string(), static_cast<std::uint32_t>(seen_.rows.size() + 1),
+                  event.sim_ns, event.sim_ns, event.type, event.fields};
+  if (bag_) row.fields.set("utc", record::calendar(utc_ns_ + row.sim_ns));
+  seen_.rows.push_back(std::move(row));
+}
+
+template <typename Report>
+void LoopTrial::observe(const Report& report) {
+  tracker_.observe(report);
+  for (const trial::Event& event : monitor_.observe(report)) push(event);
+}
+
+template <typename Message>
+void LoopTrial::observe_all(const std::vector<Message>& messages) {
+  for (const Message& message : messages)
+    if (const auto report = navvi_types::from_msg(message)) observe(*report);
+}
+
+bool LoopTrial::watch() {
+  const ClosedLoop::Messages& told = loop_.told();
+  if (!begun_ && loop_.begun()) begin();
+  if (const auto odometry = navvi_types::from_msg(told.odometry))
+    tracker_.take_odometry(*odometry);
+  // Where the robot truly is, which the odometry may not know.
+  observe(loop_.session().world().now().robot.odometry(0.0, now()));
+  observe_all(told.contacts);
+  if (told.proximity) observe_all<navvi_msgs::Proximity>({*told.proximity});
+  tracker_.observe(trial::Hands{now(), loop_.hand().forward, loop_.hand().left,
+                                loop_.hand().repeat});
+  observe_all(told.cues);
+  if (told.guidance) observe_all<navvi_msgs::Guidance>({*told.guidance});
+  observe_all<navvi_msgs::DriveState>({told.drive});
+  const auto& hashes = loop_.session().hashes();
+  for (; hashes_ < hashes.size(); ++hashes_) observe(hashes[hashes_]);
+  const trial::Ending over = ending();
+  if (!over.result.empty()) end(over);
+  if (bag_) bag_->watch({seen_.rows.begin() + static_cast<std::ptrdiff_t>(published_), seen_.rows.end()});
+  published_ = seen_.rows.size();
+  return over.result.empty();
+}
+
+void LoopTrial::begin() {
+  const Eigen::Vector2d& goal = loop_.scenario().goal;
+  start_ = monitor_.start_now(now(), goal);
+  monitor_.start(start_);
+  tracker_.start(start_.stamp);
+  flow_.start(start_.stamp);
+  begun_ = true;
+  record::Fields fields = monitor_.place();
+  if (bag_)
+    trial::add_conditions(fields, config_, LoopBag::scenario_of(loop_),
+                          settings_of(loop_.config()), start_, "");
+  fields.set("phrases", phrases_.filename().string());
+  fields.set("pad", "simulated").set("audio", "simulated");
+  push({"TRIAL_START", fields, start_.stamp});
+  fields = monitor_.place();
+  fields.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
+  push({"GOAL_SET", fields, start_.stamp});
+}
+
+/// Without a result while the trial goes on.
+trial::Ending LoopTrial::ending() const {
+  if (!begun_) return {};
+  if (monitor_.reached()) return {"reached", "goal_reached", now()};
+  if (const auto why = monitor_.refused()) return {"refused", *why, now()};
+  if (loop_.person().gave_up()) return {"aborted", "ended_by_person", now()};
+  if (const auto deadline = flow_.deadline(); deadline && now() >= *deadline)
+    return {"timeout", "limit", *deadline};
+  return {};
+}
+
+void LoopTrial::end(const trial::Ending& ending) {
+  monitor_.end(ending.stamp);
+  record::Fields fields = monitor_.end_fields();
+  push({"TRIAL_END", fields.set("result", ending.result).set("reason", ending.reason),
+        ending.stamp});
+  seen_.track = tracker_.rows_until(ending.stamp);
+}
+
+const record::Trial& LoopTrial::finish() {
+  if (!bag_) return seen_;
+  bag_.reset();
+  push({"BAG_CLOSED", record::Fields().set("state", "ok"), now()});
+  seen_.rows.back().fields.set("utc", record::calendar(utc_ns_ + now()));
+  std::string journal = std::string(record::kJournalHeader) + "\n";
+  for (const record::Row& row : seen_.rows) journal += record::format_row(row);
+  must(navvi_files::write_atomically(folder_ / "journal.csv", journal));
+  must(navvi_files::write_atomically(folder_ / "track.npy", record::track_npy(seen_.track)));
+  must(record::write_results(folder_, seen_));
+  return seen_;
+}
+
+}  // namespace navvi_study::batch

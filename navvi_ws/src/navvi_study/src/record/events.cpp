@@ -1,0 +1,87 @@
+#include "record/events.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "record/csv.hpp"
+
+namespace navvi_study::record {
+namespace {
+
+std::string seconds(std::int64_t from, std::int64_t to) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.3f", static_cast<double>(to - from) * 1e-9);
+  return text.data();
+}
+
+/// What the paper's Table III calls it; the type itself for what the paper does not have.
+std::string paper_name(const Row& row) {
+  const bool shelf = row.fields.get("kind") == "shelf";
+  if (row.type == "PROXIMITY_ENTER") return shelf ? "proximity to shelf" : "proximity to obstacle";
+  if (row.type == "COLLISION") return shelf ? "collision with shelf" : "collision with obstacle";
+  if (row.type == "GOAL_REACHED") return "goal reached";
+  std::string name = row.type;
+  for (char& c : name) c = c == '_' ? ' ' : static_cast<char>(c - 'A' + 'a');
+  return name;
+}
+
+/// What began in a row of this type ends in one of the type that is returned.
+const char* end_of(const std::string& type) {
+  if (type == "PROXIMITY_ENTER") return "PROXIMITY_LEAVE";
+  return type == "CUE" ? "CUE_END" : nullptr;
+}
+
+/// s, how long it lasted what began in `rows[at]`; n/a if that is not known, 0 for what only
+/// happened.
+std::string duration_of(const std::vector<Row>& rows, std::size_t at) {
+  const char* end = end_of(rows[at].type);
+  if (end == nullptr) return "0";
+  const auto same = [&](const Row& row, const char* name) {
+    return row.fields.get(name) == rows[at].fields.get(name);
+  };
+  for (std::size_t i = at + 1; i < rows.size(); ++i) {
+    if (rows[i].type == end && same(rows[i], "id") && same(rows[i], "modality"))
+      return seconds(rows[at].sim_ns, rows[i].sim_ns);
+  }
+  return "n/a";
+}
+
+/// The first of these fields that a row has.
+std::string any_of(const Row& row, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (const auto value = row.fields.find(name)) return *value;
+  return "n/a";
+}
+
+}  // namespace
+
+std::string events_csv(const Trial& trial) {
+  std::string text = csv_line(
+      {"onset_s", "duration_s", "trial", "participant", "wall_clock_utc", "trial_type", "robot_x_m",
+       "robot_y_m", "goal_x_m", "goal_y_m", "obstacle_position", "obstacle_collision_count",
+       "shelf_collision_count", "elapsed_s", "thing_class", "thing", "spoken", "detail"});
+  const std::vector<Row>& rows = trial.rows;
+  const Row* start = trial.first("TRIAL_START");
+  if (start == nullptr) return text;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    if (row.type == "PROXIMITY_LEAVE" || row.type == "CUE_END" || row.type == "PROGRESS" ||
+        row.type == "CLOCK_OFFSET")
+      continue;
+    const bool collision = row.type == "COLLISION";
+    const bool shelf = row.fields.get("kind") == "shelf";
+    const bool zoned = row.type == "PROXIMITY_ENTER" && !shelf;
+    text += csv_line({seconds(start->sim_ns, row.sim_ns), duration_of(rows, i), row.trial,
+                    start->fields.get("participant"), row.fields.get("utc"), paper_name(row),
+                    row.fields.get("x"), row.fields.get("y"), row.fields.get("goal_x"),
+                    row.fields.get("goal_y"), zoned ? row.fields.get("zone") : "n/a",
+                    collision && !shelf ? row.fields.get("count") : "n/a",
+                    collision && shelf ? row.fields.get("count") : "n/a", row.fields.get("elapsed"),
+                    row.fields.get("class"), row.fields.get("thing"), row.fields.get("text"),
+                    row.type == "CUE" ? row.fields.get("kind")
+                                      : any_of(row, {"reason", "state", "device", "result"})});
+  }
+  return text;
+}
+
+}  // namespace navvi_study::record

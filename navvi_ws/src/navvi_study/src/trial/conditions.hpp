@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "record/row.hpp"
+#include "trial/trial_monitor.hpp"
+#include "trial/trial_node_config.hpp"
+
+namespace navvi_study::trial {
+
+/// The parameters that nodes were given, by names such as nav/mesh/climb.
+using Settings = std::map<std::string, std::string>;
+
+/// Adds to the fields of TRIAL_START what a trial is, whoever drives: world, parameters, computer,
+/// study, goal and limits.
+/// \param phrases  name of the file of the spoken phrases; empty where it is not known
+void add_conditions(record::Fields& fields, const TrialNodeConfig& config,
+                    const std::optional<Scenario>& scenario, const Settings& settings,
+                    const TrialStart& start, const std::string& phrases);
+
+}  // namespace navvi_study::trial
