@@ -12,6 +12,10 @@
 #include "person/person_file.hpp"
 #include "person/settings_saver.hpp"
 
+namespace navvi_feedback {
+using navvi_types::CueKind;
+}  // namespace navvi_feedback
+
 namespace navvi_feedback::node {
 
 using navvi_types::CueKind;
