@@ -15,12 +15,12 @@ import time
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path[:0] = [str(ROOT), *(str(ROOT / f"navvi_ws/src/{package}/python") for package in ("navvi_people", "navvi_study"))]
 from display import Display  # noqa: E402
 from navvi_cli.arguments import LaunchFile, words_for  # noqa: E402
-from navvi_cli.commands import batch  # noqa: E402
 from navvi_cli.main import parser_of  # noqa: E402
 from navvi_cli.say import Failure  # noqa: E402
+from navvi_people import batch  # noqa: E402
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "doc").glob("*.md"))]
 ELSEWHERE = ("git clone", "cd navvi", "podman", "apt ", "sudo ", "parallel ")  # other machines, and the system itself

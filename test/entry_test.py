@@ -156,7 +156,7 @@ def test_a_picture_is_what_its_ending_says(command, map_file, tmp_path):
     result = navvi(*command, "-o", str(tmp_path / "a.png"))
     assert result.returncode == 0, result.stderr
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
-    for name, sentence in [("a.gif", ".svg and .png are allowed"), ("none/a.png", "cannot be written")]:
+    for name, sentence in [("a.gif", ".svg and .png are allowed"), ("none/a.png", "cannot be drawn: Error opening output")]:
         result = navvi(*command, "-o", str(tmp_path / name))
         assert result.returncode == 2
         assert sentence in result.stderr and len(sentences(result)) == 1

@@ -6,8 +6,9 @@ trials.csv, a row a trial, with the same bytes for every --jobs and --shard, and
 trials.json, what each column means. doc/batch.md tells more.
 
 A person is able, typical, struggling or drawn: in each world another one, or
-those with your seeds, such as drawn:1-20. A condition is default, sounds_off, touch_off, words_off, words_alone, attractive,
-brief, sighted (the hand led by eyes), or a name of your own:
+those with your seeds, such as drawn:1-20. A condition is default, sounds_off,
+touch_off, words_off, words_alone, attractive, brief, sighted (the hand led by
+eyes), or a name of your own:
 slow=feedback/drive/max_forward:=0.5+nav/replan/period:=3
 
 Exit codes
@@ -23,11 +24,6 @@ import sys
 from navvi_cli import places
 from navvi_cli.say import fail
 from navvi_cli.worlds import check_name
-
-sys.path[:0] = [str(places.share(package) / "python") for package in ("navvi_people", "navvi_study")]
-
-from navvi_people import batch  # noqa: E402  (found by the path above)
-from navvi_study.table import figures  # noqa: E402
 
 
 def arguments(parser):
@@ -47,6 +43,9 @@ def arguments(parser):
 
 def run(args):
     from navvi_cli.workspace import enter, tool
+    sys.path[:0] = [str(places.share(package) / "python") for package in ("navvi_people", "navvi_study")]
+    from navvi_people import batch
+    from navvi_study.table import figures
     for world in args.worlds.split(","):
         check_name(world)
     try:
