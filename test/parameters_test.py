@@ -34,7 +34,7 @@ def in_pages():
 
 def in_programs():
     """What the command, its scripts and launch files set or read."""
-    folders = [ROOT / "navvi_cli", ROOT / "launch", *SOURCES.glob("*/python"), *SOURCES.glob("*/scripts")]
+    folders = [ROOT / "navvi_cli", ROOT / "launch", *SOURCES.glob("*/python"), *SOURCES.glob("*/scripts"), *SOURCES.glob("*/bench")]
     for path in (path for folder in folders for path in folder.rglob("*") if path.suffix in ("", ".py", ".launch") and path.is_file()):
         yield from re.findall(r"\w+(?:/\w+)+|\w+(?=:=)|(?<=\")\w+(?=\")", path.read_text())
 
