@@ -10,15 +10,15 @@ QUEUED, STARTED, DROPPED = "0", "1", "4"
 
 
 def stages(master, folder, device, *words):
-    """The stages of the words that feedback_node has when nothing comes from a robot for 2 s."""
+    """The stages of the words that feedback_node has when nothing comes from a robot for 10 s."""
     config = folder / "alsoft"
     config.write_text(f"[general]\ndrivers = {device}\n[wave]\nfile = {folder}/sound.wav\n")
     env = dict(master, ALSOFT_CONF=str(config))
     echo = subprocess.Popen(["rostopic", "echo", "-p", "/navvi/cues"], env=env, stdout=subprocess.PIPE, text=True)
-    node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic", "_cues/patience:=2", *words], env=env,
+    node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic", *words], env=env,
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
-        node.wait(8)
+        node.wait(16)
     except subprocess.TimeoutExpired:
         node.terminate()
     echo.terminate()

@@ -366,7 +366,7 @@ TEST_F(TrialNodeProcess, what_it_records_is_its_owners_alone) {
     EXPECT_EQ(all & ~fs::perms::owner_all, fs::perms::none) << entry.path();
     if (entry.is_regular_file()) ++files;
   }
-  EXPECT_EQ(files, 4U) << "journal, events, summary and bag";
+  EXPECT_EQ(files, 5U) << "journal, track, events, summary and bag";
 }
 
 TEST_F(TrialNodeProcess, a_killed_trial_is_closed_by_the_next_start) {
