@@ -173,7 +173,7 @@ def test_the_bag_holds_the_topics_and_agrees_with_the_summary(trial):
     bagged = set(re.findall(r"topic: (\S+)", info))
     assert BAGGED - {"/navvi/contacts"} <= bagged
     assert "/navvi/navmesh" not in bagged, "a replay makes it anew"
-    subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(trial)], check=True, timeout=120)
+    subprocess.run(["rosrun", "navvi_study", "count_trial", "bag", str(trial)], check=True, timeout=120)
 
 
 def test_a_plain_replay_shows_the_robot_and_what_moves_twice_a_second(trial):
@@ -203,7 +203,7 @@ def test_a_cue_of_a_node_that_woke_after_the_end_is_not_counted(trial, tmp_path)
         cue = said[len(said) // 2]  # of the trial's midst
         cue.id += 100000
         bag.write("/navvi/cues", cue, rospy.Time(bag.get_end_time() + 1.0))
-    subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(tmp_path)], check=True, timeout=120)
+    subprocess.run(["rosrun", "navvi_study", "count_trial", "bag", str(tmp_path)], check=True, timeout=120)
 
 
 def test_a_bag_of_another_version_is_named_as_one(trial, tmp_path):
@@ -214,7 +214,7 @@ def test_a_bag_of_another_version_is_named_as_one(trial, tmp_path):
                 header = dict(header, md5sum=32 * b"0")
                 message = (*message[:2], 32 * "0", *message[3:])
             other.write(topic, message, stamp, raw=True, connection_header=header)
-    result = subprocess.run(["rosrun", "navvi_study", "summary_from_bag", str(tmp_path)], text=True, capture_output=True, timeout=60)
+    result = subprocess.run(["rosrun", "navvi_study", "count_trial", "bag", str(tmp_path)], text=True, capture_output=True, timeout=60)
     assert result.returncode == 2, result.stdout + result.stderr
     assert "by a NavVI with another navvi_msgs/Guidance" in result.stderr
 

@@ -47,9 +47,9 @@ def run(args):
     resolve_rviz(words)
     settings = recorded(args.trial)
     words.update({"speech": words.get("speech", "true"), "bag": args.trial / "trial.bag", **{**settings, **words}})
-    build("session", "scene_player", "summary_from_bag", "cue_player", *(["navvi_rviz"] if words["rviz"] == "true" else []))
+    build("session", "scene_player", "count_trial", "cue_player", *(["navvi_rviz"] if words["rviz"] == "true" else []))
     enter()
-    status = show(program("navvi_study", "summary_from_bag"), args.trial)
+    status = show(program("navvi_study", "count_trial"), "bag", args.trial)
     if status > 1:
         fail("this trial cannot be replayed; see above. rosbag reindex may mend a bag that was cut off.")
     if onset is not None:

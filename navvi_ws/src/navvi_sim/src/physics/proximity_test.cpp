@@ -90,10 +90,11 @@ TEST(Proximity, of_what_hangs_is_level_if_it_is_lower_than_the_headroom_and_else
   EXPECT_TRUE(near({thing_of(Box{{1, 1, 0.4}}, {1.85, 0, 1.0})}).empty());
   // Of a ball and of a slanted plate only what is as low as the robot counts.
   const auto ball = near({thing_of(Sphere{1.0}, {3, 0, 1.4})}).at(0);
-  EXPECT_NEAR(ball.gap, 3.0 - 0.8 - 0.35, kExact);
+  const double top = RobotConfig{}.height;
+  EXPECT_NEAR(ball.gap, 3.0 - std::sqrt(1.0 - (1.4 - top) * (1.4 - top)) - 0.35, kExact);
   Thing plate = thing_of(Box{{4, 1, 1e-6}}, {4, 0, 0.8});
   plate.pose.rotate(Eigen::AngleAxisd(std::atan(0.5), Eigen::Vector3d::UnitY()));
-  EXPECT_NEAR(near({plate}).at(0).gap, 4.0 - 0.35, kExact);
+  EXPECT_NEAR(near({plate}).at(0).gap, 4.0 + (0.8 - top) / 0.5 - 0.35, kExact);
 }
 
 TEST(Proximity, passes_over_floors_and_what_is_driven_over) {
