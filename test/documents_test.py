@@ -77,7 +77,9 @@ def papers(tmp_path_factory):
     (folder / "my_models").mkdir()
     for name in "my.world", "my_map.bt":
         (folder / name).touch()
-    shutil.copy(ROOT / "navvi_ws/src/navvi_study/studies/example_plan.yaml", folder / "plan.yaml")
+    (folder / "study").mkdir()
+    for plan in "plan.yaml", "study/plan.yaml":
+        shutil.copy(ROOT / "navvi_ws/src/navvi_study/studies/example_plan.yaml", folder / plan)
     trial = folder / "trials/TRIAL"
     trial.mkdir(parents=True)
     for name in "trial.bag", "summary.csv", "journal.csv":
@@ -88,7 +90,7 @@ def papers(tmp_path_factory):
 @pytest.fixture(scope="module")
 def desk(papers):
     """With a world and a map, too."""
-    shutil.copy(ROOT / "navvi_ws/src/navvi_sim/worlds/crossing.sdf", papers / "my.world")
+    (papers / "my.world").write_text(re.search(r"^```xml\n(.*?)^```", (ROOT / "doc/worlds.md").read_text(), re.M | re.S)[1])
     subprocess.run(["./navvi", "world", "check", "warehouse", "-o", "my_map.bt"], cwd=papers, check=True, stdout=subprocess.DEVNULL)
     return papers
 
