@@ -47,6 +47,8 @@ def check_operator(words, also):
     """Refuses a pad or keys that are not there; `also` names what is left."""
     if words["operator"] == "pad" and not has_pad():
         fail(f"operator:=pad needs a game controller, and none is connected; {also} none.", 2)
+    if words["operator"] == "keyboard" and "feedback/lead:=hand" in words.parameters:
+        fail("feedback/lead:=hand leads by the motors of a pad, and a keyboard has none; allowed with keys are words, ticks and flow.", 2)
     if words["operator"] == "keyboard" and not has_display():
         fail("operator:=keyboard needs a display, and DISPLAY is not set; operator:=simulated of \"./navvi run\" needs none.", 2)
 

@@ -7,7 +7,7 @@ trials.json, what each column means. doc/batch.md tells more.
 
 A person is able, typical, struggling or drawn: in each world another one, or
 those with your seeds, such as drawn:1-20. A condition is default, sounds_off,
-touch_off, words_off, words_alone, attractive, brief, sighted (the hand led by
+touch_off, words_off, words_alone, flow, hand, hand_alone, brief, sighted (the hand led by
 eyes), or a name of your own:
 slow=feedback/drive/max_forward:=0.5+nav/replan/period:=3
 

@@ -329,9 +329,12 @@ void ways(const std::string& type) {
   const Ways speech = drive(type, {deaf, numb});
   const Ways spatial = drive(type, {numb});
   const Ways beacon =
-      drive(type, {numb, "feedback/sounds/turn/on:=false", "feedback/sounds/beacon/on:=true"});
-  const Ways touch = drive(type, {deaf, "speech:=false", "feedback/haptics/steer:=attractive",
-                                  "person/feeling/touch:=attractive"});
+      drive(type, {numb, "feedback/lead:=words", "feedback/sounds/beacon/on:=true"});
+  const std::vector<std::string> by_hand = {deaf, "speech:=false", "feedback/lead:=hand"};
+  const Ways touch = drive(type, by_hand);
+  const Ways lasting = drive(type, {numb, "feedback/lead:=flow"});
+  const Ways in_noise =
+      drive(type, {numb, "feedback/lead:=flow", "person/hearing/noise:=0.5"});
   row({"error of turns by words over that by the guide's turn sound", "PerCom'19, 28 people", 3.5,
        1.0},
       estimate(kTrials, [&](std::size_t but) {
@@ -341,6 +344,12 @@ void ways(const std::string& type) {
       difference(speech.time, spatial.time));
   row({"a beacon is quicker than speech, s", "Marston 2006, 8 people"},
       difference(speech.time, beacon.time));
+  row({"a sound that lasts is quicker than turns on the spot by ticks, s", "CHI'18, 15 people"},
+      difference(spatial.time, lasting.time));
+  row({"touch is slower than sound in silence, s", "Front. Hum. Neurosci. 2019, 12 people"},
+      difference(touch.time, lasting.time));
+  row({"and less so in noise, s", "Front. Hum. Neurosci. 2019, 12 people"},
+      difference(in_noise.time, lasting.time));
   row({"touch alone is slower than speech, s", "ToH 2015, 10 people"},
       difference(touch.time, speech.time));
   row({"touch alone is closer to the path than speech, m", "ToH 2015, 10 people"},

@@ -19,7 +19,7 @@ sounds::Play AuditoryDisplay::sample(Earcon earcon) const {
 
 std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
                                                   const Observation& now,
-                                                  const sounds::Soundscape::Lead& lead,
+                                                  const sounds::Soundscape::Steering& lead,
                                                   const lessons::Taught& taught, double time) {
   std::vector<sounds::Play> plays;
   for (cues::Cue& cue : cues)

@@ -23,7 +23,7 @@ class AuditoryDisplay {
   /// \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::vector<sounds::Play> update(std::vector<cues::Cue>& cues,
                                                  const Observation& now,
-                                                 const sounds::Soundscape::Lead& lead,
+                                                 const sounds::Soundscape::Steering& lead,
                                                  const lessons::Taught& taught, double time);
   /// As Soundscape::learnt().
   [[nodiscard]] std::optional<sounds::Learnt> learnt() const { return soundscape_.learnt(); }

@@ -9,8 +9,10 @@
 #include "core/haptic_display.hpp"
 #include "core/side_question.hpp"
 #include "cues/cue_policy.hpp"
+#include "lead/flow.hpp"
 #include "lessons/teacher.hpp"
 #include "menu/menu.hpp"
+#include "navvi_config/reader.hpp"
 
 namespace navvi_feedback::core {
 namespace {
@@ -74,7 +76,11 @@ struct Feedback::Deciders {
 Feedback::Feedback(const FeedbackConfig& config, const std::filesystem::path& phrases)
     : config_(config),
       deciders_(new Deciders(config, cues::Phrases(phrases, config.cues.wording))),
-      senses_(config.kStale) {}
+      senses_(config.kStale) {
+  if (config.lead == "hand" && !config.haptics.enabled)
+    throw navvi_config::ConfigError(
+        "lead is hand, but haptics/enabled is false; the motors lead only where they are on");
+}
 
 Feedback::~Feedback() = default;
 
@@ -110,16 +116,25 @@ Feedback::Decided Feedback::update(const Devices& devices, bool voice_busy, doub
   teacher.join(out.cues);
   if (!teacher.speaks()) lesson_.reset();
   if (teacher.speaks() && !teacher.taught().cues.empty()) lesson_ = teacher.taught().cues.back();
-  touch.begin(out.cues, now.contacts, teacher.taught());
+  touch.begin(out.cues, now.contacts, teacher.taught(), now.lead == Lead::hand);
   out.cues.erase(std::remove_if(out.cues.begin(), out.cues.end(),
                                 [](const cues::Cue& cue) { return cue.felt; }),
                  out.cues.end());
   out.answers =
       std::any_of(out.cues.begin(), out.cues.end(), [](const cues::Cue& cue) { return cue.asked; });
-  const sounds::Soundscape::Lead led = lead(now, dt);
+  const sounds::Soundscape::Steering led = lead(now, dt);
   for (const sounds::Play& play : sounds.update(out.cues, now, led, teacher.taught(), time))
     out.plays.push_back(play);
-  out.rumble = touch.update(now, led.off, teacher.taught(), important_.has_value(), dt);
+  auto course = pilot_.update(lasts(now.lead) && !teacher.speaks() ? led.off : std::nullopt,
+                              now.nearby, now.motion().linear, config_.drive.max_forward, time);
+  if (now.lead == Lead::flow) following_.update(course, now.motion(), time);
+  if (const auto& shown = teacher.taught().course) {
+    course = shown->course;
+    now.lead = shown->lead;
+  }
+  if (now.lead == Lead::flow && course) out.flow = lead::flow_of(*course);
+  out.flow_gain = (voice_busy ? config_.sounds.kFlowUnderWords : 1.0) * config_.sounds.turn.volume;
+  out.rumble = touch.update(now, course, teacher.taught(), important_.has_value(), dt);
   out.pattern = touch.playing();
   out.lesson_over = teacher.over();
   out.record = teacher.record();
@@ -137,7 +152,10 @@ std::optional<Velocity> Feedback::command(const Devices& devices, double dt) {
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
   const lessons::Teacher& teacher = deciders_->teacher;
   const bool held = teacher.teaching() ? teacher.holds() : senses_.trial().holds();
-  if (held || !enabled) deciders_->drive.disarm();
+  // Where the motors led and no longer do, nobody drives on.
+  felt_ = felt_ || devices.felt;
+  const bool numb = config_.lead == "hand" && felt_ && !devices.felt && !teacher.teaching();
+  if (held || !enabled || numb) deciders_->drive.disarm();
   const drive::Stick stick = hands.stick(config_.drive.stick == "right");
   const std::optional<Velocity> velocity =
       deciders_->drive.update(live ? std::optional(stick) : std::nullopt, dt);
@@ -167,8 +185,20 @@ Observation Feedback::observe(const Devices& devices, bool voice_busy, double dt
   const sounds::SoundsConfig& sounds = config_.sounds;
   now.audible = devices.sounds && sounds.enabled;
   if (now.audible)
-    now.sounds = {sounds.turn.on && deciders_->sounds.leads(), sounds.shelf.on, sounds.near.on};
+    now.sounds = {sounds.shelf.on, sounds.near.on};
+  now.lead = leading(now);
   return now;
+}
+
+/// As far as the person hears or feels it.
+Lead Feedback::leading(const Observation& now) const {
+  // A lesson teaches turns by ticks, whatever leads later.
+  if (deciders_->teacher.speaks()) return now.audible ? Lead::ticks : Lead::words;
+  const Lead wanted = navvi_types::from_word<Lead>(config_.lead).value_or(Lead::words);
+  if ((wanted == Lead::hand || deciders_->touch.deaf()) && now.motors) return Lead::hand;
+  if (!now.audible) return Lead::words;
+  if (wanted == Lead::flow && following_.follows()) return Lead::flow;
+  return wanted != Lead::words && deciders_->sounds.leads() ? Lead::ticks : Lead::words;
 }
 
 /// Before a trial, of a person whom sounds are to lead, by each sound device once.
@@ -177,7 +207,7 @@ void Feedback::ask_side(Observation& now, double time, Output& out) {
   SideQuestion& side = deciders_->side;
   const Devices& devices = now.devices;
   const bool known = devices.ears.empty() || devices.ears == config_.sounds.sides;
-  const bool may = !known && now.sounds.turn && devices.words && devices.hands.live &&
+  const bool may = !known && now.lead != Lead::words && devices.sounds && devices.words && devices.hands.live &&
                    !deciders_->teacher.teaching() && now.trial == TrialState::State::ready;
   const std::optional<bool> right = side.update(may, !now.voice_busy, now.stick.x, time);
   if (right == false) sounds.find_sides_wrong();
@@ -217,6 +247,8 @@ cues::Asked Feedback::obey(const Observation& now, double dt, Output& out) {
   cues::Asked asked;
   for (const drive::Button button : pressed) {
     if (const auto question = question_of(button)) asked.question = question;
+    if (asked.question == cues::Question::goal && now.lead == Lead::hand && now.goal_angle)
+      touch.answer(*now.goal_angle, now.goal_straight);
     const menu::Menu::Step step = menu.press(button);
     if (step.goal) {
       out.goal = step.goal;
@@ -264,7 +296,7 @@ cues::Utterance Feedback::remember(const std::optional<Eigen::Vector2d>& at, Out
   return told;
 }
 
-sounds::Soundscape::Lead Feedback::lead(const Observation& now, double dt) {
+sounds::Soundscape::Steering Feedback::lead(const Observation& now, double dt) {
   const bool drives = now.commanded.linear != 0.0 || now.commanded.angular != 0.0;
   idle_ = deciders_->cues.leads() && !drives ? idle_ + dt : 0.0;
   return {off_course(now), deciders_->cues.leads_off(),
@@ -273,7 +305,8 @@ sounds::Soundscape::Lead Feedback::lead(const Observation& now, double dt) {
 
 std::optional<double> Feedback::off_course(const Observation& now) const {
   if (deciders_->teacher.speaks()) return deciders_->teacher.taught().off;
-  const bool led = now.links.guidance == Link::alive && deciders_->cues.leads() && idle_ <= kIdle;
+  const bool awake = lasts(now.lead) || idle_ <= kIdle;
+  const bool led = now.links.guidance == Link::alive && deciders_->cues.leads() && awake;
   if (!led) return std::nullopt;
   return navvi_types::wrap(now.guidance->steer_angle + now.turned);
 }
@@ -288,9 +321,14 @@ std::optional<cues::Cue> Feedback::order() const {
   return order;
 }
 
-std::optional<sounds::Learnt> Feedback::learnt() const { return deciders_->sounds.learnt(); }
+std::optional<sounds::Learnt> Feedback::learnt() const {
+  return config_.lead == "ticks" ? deciders_->sounds.learnt() : std::nullopt;
+}
 
 void Feedback::take(const TrialState& state, double time) {
+  const bool begins = state.state == TrialState::State::running &&
+                      senses_.trial().state != TrialState::State::running;
+  if (begins) following_.forgive();
   senses_.take(state, time);
   deciders_->menu.take(state);
 }

@@ -15,6 +15,8 @@
 #include "cues/asked.hpp"
 #include "cues/cue.hpp"
 #include "haptics/pattern.hpp"
+#include "lead/course.hpp"
+#include "lead/following.hpp"
 #include "navvi_feedback/core/output.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
@@ -84,6 +86,7 @@ class Feedback {
   [[nodiscard]] Observation observe(const Devices& devices, bool voice_busy, double dt,
                                     double time);
   [[nodiscard]] double assist(std::optional<Velocity>& command, const Observation& now) const;
+  [[nodiscard]] Lead leading(const Observation& now) const;
   void ask_side(Observation& now, double time, Output& out);
   /// Carries out what lesson and menu make of the buttons. \return what is left to be answered
   cues::Asked obey(const Observation& now, double dt, Output& out);
@@ -92,7 +95,7 @@ class Feedback {
   /// \param at  m, in map; nullopt: it is not known \return what is told of it
   cues::Utterance remember(const std::optional<Eigen::Vector2d>& at, Output& out);
   /// To where the person is led now.
-  [[nodiscard]] sounds::Soundscape::Lead lead(const Observation& now, double dt);
+  [[nodiscard]] sounds::Soundscape::Steering lead(const Observation& now, double dt);
   [[nodiscard]] std::optional<double> off_course(const Observation& now) const;
 
   /// A goal of the menu that the planner has not answered yet.
@@ -106,6 +109,8 @@ class Feedback {
   FeedbackConfig config_;
   std::unique_ptr<Deciders> deciders_;
   senses::Senses senses_;
+  lead::Pilot pilot_;
+  lead::Following following_;  ///< what sounds all the time
   std::vector<std::string>
       begun_;  ///< texts of a lesson that began to be heard since the last update
 
@@ -117,6 +122,7 @@ class Feedback {
   Velocity commanded_;
   double idle_ = 0.0;  ///< s, since the person last drove, or had reason to
   std::optional<cues::Cue> lesson_;  ///< its last sentence, while one speaks
+  bool felt_ = false;  ///< there were motors
   bool held_unarmed_ = false;
   bool pushed_disabled_ = false;
 };

@@ -19,6 +19,7 @@ struct FeedbackConfig {
   std::string questions;        ///< path, likewise
   bool locked = false;          ///< the menu offers neither goals nor settings
   std::string places;           ///< path of a file as menu::read_places() takes it; empty: none
+  std::string lead = "ticks";   ///< as senses::Lead
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;

@@ -779,7 +779,7 @@ TEST(Lesson, is_given_by_the_motors_and_sounds_of_a_session_and_drives_no_robot)
     if (output.rumble.right == 0.0) left_alone = std::max(left_alone, output.rumble.left);
   });
   EXPECT_EQ(felt.size(), names(haptics::Pattern{}).size());
-  EXPECT_EQ(heard.size(), names(sounds::Earcon{}).size() - 1) << "all but what is off";
+  EXPECT_EQ(heard.size(), names(sounds::Earcon{}).size() - 2) << "all but what is off";
   EXPECT_GT(left_alone, 0.5);
   EXPECT_EQ(said.count("glossary_said_go_on") + said.count("go_on"), 2U);
   for (const char* kind : {"simulator_lost", "guidance_lost", "proximity_lost", "release_stick"})

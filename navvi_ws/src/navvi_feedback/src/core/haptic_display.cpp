@@ -1,5 +1,7 @@
 #include "core/haptic_display.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cues/side.hpp"
@@ -7,6 +9,19 @@
 
 namespace navvi_feedback::core {
 namespace {
+
+/// s, without pulses of the way before and after a pattern.
+constexpr double kApart = 0.4;
+constexpr double kAhead = 0.79;      // rad
+constexpr double kMetresATap = 5.0;  // m
+constexpr double kMostTaps = 8.0;
+
+/// The pulses of the way tell it.
+bool is_way(haptics::Pattern pattern) { return pattern == haptics::Pattern::rerouted; }
+
+bool is_hit(haptics::Pattern pattern) {
+  return pattern == haptics::Pattern::hit_obstacle || pattern == haptics::Pattern::hit_shelf;
+}
 
 haptics::Zone zone_of(const Contact& contact) {
   switch (cues::side_of(contact.seen_from_robot())) {
@@ -55,11 +70,12 @@ bool HapticDisplay::report(Link audio, bool motors) {
 }
 
 void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const std::vector<Contact>& contacts,
-                          const lessons::Taught& taught) {
+                          const lessons::Taught& taught, bool by_hand) {
   if (!config_.enabled || !config_.patterns) return;
   if (taught.pattern) patterns_.begin(*taught.pattern, taught.side);
   for (const cues::Cue& cue : cues)
-    if (const auto pattern = pattern_of(cue, deaf_)) patterns_.begin(*pattern);
+    if (const auto pattern = pattern_of(cue, deaf_); pattern && !(by_hand && is_way(*pattern)))
+      patterns_.begin(*pattern);
   for (const Contact& contact : contacts) {
     patterns_.begin(cues::is_structure(contact.thing_class) ? haptics::Pattern::hit_shelf
                                                             : haptics::Pattern::hit_obstacle,
@@ -72,11 +88,39 @@ bool HapticDisplay::feels_near(const Observation& now) const {
          !(now.arrived() && config_.rest_at_goal);
 }
 
-haptics::Rumble HapticDisplay::update(const Observation& now, std::optional<double> off,
+void HapticDisplay::answer(double angle, double distance) {
+  const haptics::Zone side = std::abs(angle) < kAhead ? haptics::Zone::center
+                             : angle > 0.0            ? haptics::Zone::right
+                                                      : haptics::Zone::left;
+  const double taps = std::clamp(std::ceil(distance / kMetresATap), 1.0, kMostTaps);
+  patterns_.begin(haptics::Pattern::answer, side, static_cast<int>(taps));
+}
+
+/// A pattern stands apart from the pulses, but for a hit, which is felt at once.
+haptics::Rumble HapticDisplay::lead_by_hand(const std::optional<lead::Course>& course, double dt) {
+  apart_ += dt;
+  if (course && patterns_.playing() == haptics::Pattern::halt) patterns_.stop();
+  const auto wanted = patterns_.playing();
+  const bool begins = wanted && (felt_pattern_ || apart_ >= kApart || is_hit(*wanted));
+  const auto pattern = begins ? patterns_.update(dt) : std::nullopt;
+  if (felt_pattern_ != pattern.has_value()) apart_ = 0.0;
+  felt_pattern_ = pattern.has_value();
+  const bool rests = wanted || (apart_ < kApart && !pulsed_);
+  const haptics::Rumble pulse =
+      pulses_.update(rests || !config_.enabled ? std::nullopt : course, dt);
+  if (pulse.left + pulse.right > 0.0) apart_ = 0.0;
+  pulsed_ = !rests;
+  const haptics::Rumble felt = pattern.value_or(pulse);
+  return {config_.strength * felt.left, config_.strength * felt.right};
+}
+
+haptics::Rumble HapticDisplay::update(const Observation& now,
+                                      const std::optional<lead::Course>& course,
                                       const lessons::Taught& taught, bool urgent, double dt) {
   if (taught.rumble) return *taught.rumble;
+  if (now.lead == Lead::hand && taught.near.empty()) return lead_by_hand(course, dt);
   const haptics::Rumble felt = taught.near.empty()
-                                   ? near_.update(now.nearby, feels_near(now), dt, off, deaf_)
+                                   ? near_.update(now.nearby, feels_near(now), dt)
                                    : near_.update(taught.near, true, dt);
   if (const auto pattern = patterns_.update(dt))
     return {config_.strength * pattern->left, config_.strength * pattern->right};

@@ -7,6 +7,7 @@
 #include "cues/cue.hpp"
 #include "haptics/haptics.hpp"
 #include "haptics/pattern.hpp"
+#include "lead/hand.hpp"
 #include "lessons/lesson.hpp"
 #include "senses/observation.hpp"
 
@@ -25,26 +26,37 @@ class HapticDisplay {
   /// \return true if they begin to
   bool report(Link audio, bool motors);
   void begin(haptics::Pattern pattern) { patterns_.begin(pattern); }
-  /// The patterns of what is said, was touched and is taught.
+  /// Where the goal is. \param angle  rad, clockwise \param distance  m
+  void answer(double angle, double distance);
+  /// The patterns of what is said, was touched and is taught. \param by_hand  pulses lead
   void begin(const std::vector<cues::Cue>& cues, const std::vector<Contact>& contacts,
-             const lessons::Taught& taught);
+             const lessons::Taught& taught, bool by_hand);
 
-  /// \param off  rad, clockwise from the nose to where to steer, if the person is led
+  /// There is to be sound and is none, and touch is to do the work of words.
+  [[nodiscard]] bool deaf() const { return deaf_; }
+
+  /// \param course  of a person whom the motors lead; nullopt: to stand
   /// \param urgent  a safety phrase is being spoken
-  [[nodiscard]] haptics::Rumble update(const Observation& now, std::optional<double> off,
+  [[nodiscard]] haptics::Rumble update(const Observation& now,
+                                       const std::optional<lead::Course>& course,
                                        const lessons::Taught& taught, bool urgent, double dt);
   [[nodiscard]] std::optional<haptics::Pattern> playing() const { return patterns_.playing(); }
 
  private:
   /// What is near is known, and to be felt.
   [[nodiscard]] bool feels_near(const Observation& now) const;
+  [[nodiscard]] haptics::Rumble lead_by_hand(const std::optional<lead::Course>& course, double dt);
 
   haptics::HapticsConfig config_;
   haptics::Haptics near_;
   haptics::PatternPlayer patterns_;
+  lead::HandPulses pulses_;
+  double apart_ = 1.0;         ///< s, since the last pulse, or pattern
+  bool felt_pattern_ = false;  ///< at the last beat
+  bool pulsed_ = false;        ///< the pulses were not at rest then
   std::string pad_;
   bool alarmed_ = false;  ///< nothing can be heard, and that was reported
-  bool deaf_ = false;     ///< likewise, and touch is to do the work of words
+  bool deaf_ = false;
 };
 
 }  // namespace navvi_feedback::core

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cues/robot_motion.hpp"
+#include "cues/structure.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -17,6 +18,14 @@ void add(Utterances& told, const Utterances& more) {
 bool makes_stop(const Utterance& utterance) {
   return utterance.fillings.side == Side::ahead || utterance.kind == CueKind::release_stick ||
          utterance.kind == CueKind::back_away || family_of(utterance.kind) == Family::stuck;
+}
+
+/// s, of standing before what does not move, where what leads all the time leads round it.
+constexpr double kStood = 1.0;
+
+bool is_fixed(const Utterance& utterance) {
+  const auto thing = utterance.fillings.thing;
+  return thing && (is_structure(*thing) || thing == ThingClass::box || thing == ThingClass::pedestal);
 }
 
 /// It asks to release the stick, too.
@@ -48,10 +57,10 @@ std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, d
   add(told, state_.update(tick, halt_.told(), phrasing_));
   add(told, near(tick));
   remind(tick, told);
-  const bool stops = halt(told, time);
+  const bool stops = halt(told, tick);
   Utterances answer = answers_.update(tick, route_, halt_, state_);
   if (stops) answers_.yield(answer);
-  if (!halt_.halted()) halt(answer, time);
+  if (!halt_.halted()) halt(answer, tick);
   const Utterances led = way(tick);
   if (!led.empty() && led.front().goes_on) answers_.yield(answer);
   add(told, answer);
@@ -93,8 +102,8 @@ Utterances CuePolicy::near(const Tick& tick) {
       measured && (std::abs(measured->linear) > kMoving || std::abs(measured->angular) > kMoving);
   const bool straight =
       config_.route.join && tick.time - phrasing_.straight_said() < config_.kRecover;
-  return near_.update(tick.now, tick.follows || drives, {straight, halt_.fresh(tick.time)},
-                      tick.time);
+  const bool all = !lasts(tick.now.lead) && (tick.follows || drives);
+  return near_.update(tick.now, all, {straight, halt_.fresh(tick.time)}, tick.time);
 }
 
 void CuePolicy::remind(const Tick& tick, const Utterances& told) {
@@ -103,12 +112,14 @@ void CuePolicy::remind(const Tick& tick, const Utterances& told) {
 }
 
 /// Whoever hears a word to stop waits for "go on", be it an answer. \return whether one is said
-bool CuePolicy::halt(const Utterances& told, double time) {
+bool CuePolicy::halt(const Utterances& told, const Tick& tick) {
   bool stops = false;
   for (const Utterance& utterance : told) {
-    const bool said = utterance.asked || !phrasing_.too_soon(utterance.kind, time);
+    const bool said = utterance.asked || !phrasing_.too_soon(utterance.kind, tick.time);
     if (family_of(utterance.kind) != Family::halt || !said) continue;
-    halt_.say(utterance, time);
+    // What leads all the time ends with a way that is blocked, and comes again with it.
+    if (lasts(tick.now.lead) && utterance.kind == CueKind::blocked) continue;
+    halt_.say(utterance, tick.time);
     stops = true;
   }
   return stops;
@@ -128,6 +139,12 @@ Utterances CuePolicy::way(const Tick& tick) {
   }
   // A wait that is not worth saying is no reason to say the direction again.
   if (!tick.follows && !halt_.halted()) return {};
+  // What leads all the time is "go on" itself.
+  if (lasts(tick.now.lead)) {
+    const bool stood = halt_.told() && tick.time - *halt_.told() > kStood;
+    if (may_go || (stood && is_fixed(halt_.words()))) halt_.end();
+    return route_.update(tick.now, halt_.halted(), tick.time);
+  }
   Utterances told = route_.update(tick.now, halt_.halted(), tick.time);
   const auto leads = [](const Utterance& one) { return is_way(family_of(one.kind)); };
   const bool led = std::any_of(told.begin(), told.end(), leads);

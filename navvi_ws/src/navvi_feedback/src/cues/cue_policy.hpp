@@ -50,7 +50,7 @@ class CuePolicy {
   [[nodiscard]] Utterances release(const Tick& tick, const Utterances& told);
   [[nodiscard]] Utterances near(const Tick& tick);
   void remind(const Tick& tick, const Utterances& told);
-  bool halt(const Utterances& told, double time);
+  bool halt(const Utterances& told, const Tick& tick);
   [[nodiscard]] Utterances way(const Tick& tick);
   [[nodiscard]] std::vector<Cue> say(const Utterances& told, const Tick& tick);
   void lost(const CueEvent& event);

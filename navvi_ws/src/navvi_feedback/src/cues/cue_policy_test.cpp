@@ -38,7 +38,7 @@ TEST_F(CuePolicyTest, tells_one_direction_of_a_goal_whether_it_is_asked_for_or_n
 }
 
 TEST_F(CuePolicyTest, says_not_to_drive_at_what_moves_ahead_where_ticks_lead) {
-  now_.sounds.turn = true;
+  now_.lead = Lead::ticks;
   now_.guidance->waypoint_is_goal = false;
   pass(1.0);
   now_.commanded.linear = now_.measured->linear = 1.0;

@@ -26,6 +26,8 @@ class Halt {
   void repeat(double time);
   /// The sentence that says "go on" is about to be said.
   void release(const std::string& text);
+  /// "Go on" needs no words: what leads comes again.
+  void end() { state_ = State::free; }
   /// Takes note of what became of these words.
   /// \param replaced  another word of the kind is said instead
   void note(const CueEvent& event, bool replaced, double time);

@@ -204,7 +204,7 @@ TEST_F(HaltTest, nothing_cuts_the_word_to_stop_and_the_way_on_follows_it) {
 
 TEST_F(HaltTest, says_the_same_once_more_in_other_words) {
   under_way();
-  now_.sounds.turn = true;
+  now_.lead = Lead::ticks;
   now_.guidance->blocked_distance = 5.0;
   now_.guidance->blocked_by = ThingClass::worker;
   Texts said;

@@ -9,9 +9,9 @@ TEST(InsteadOf, is_a_sound_for_what_is_near_where_its_family_is_heard) {
   const Utterance shelf{CueKind::wall_close, {{}, {}, ThingClass::wall, Side::left}};
   const Utterance worker{CueKind::obstacle_near, {{}, {}, ThingClass::worker, Side::right}};
   const Utterance stop{CueKind::obstacle_stop, {{}, {}, ThingClass::worker, Side::ahead}};
-  const Sounds all{true, true, true};
-  EXPECT_FALSE(instead_of(shelf, {true, false, true}));
-  EXPECT_FALSE(instead_of(worker, {true, true, false}));
+  const Sounds all{true, true};
+  EXPECT_FALSE(instead_of(shelf, {false, true}));
+  EXPECT_FALSE(instead_of(worker, {true, false}));
   EXPECT_FALSE(instead_of(stop, all));
   EXPECT_EQ(instead_of(shelf, all).value().earcon, sounds::Earcon::shelf_close);
   EXPECT_GT(instead_of(shelf, all).value().from.y(), 0.9);
@@ -20,7 +20,7 @@ TEST(InsteadOf, is_a_sound_for_what_is_near_where_its_family_is_heard) {
 }
 
 TEST(InsteadOf, sounds_stand_for_what_is_near_and_for_no_other_words) {
-  const Sounds all{true, true, true};
+  const Sounds all{true, true};
   for (const CueKind kind : phrase_kinds()) {
     Utterance told{kind};
     told.fillings.thing = ThingClass::shelf;

@@ -35,7 +35,7 @@ enum class SettingName {
   touch,
   way_words,
   near_words,
-  turn_sound,
+  lead,
   shelf_sound,
   near_sound,
   hit_sound,
@@ -45,12 +45,12 @@ enum class SettingName {
 };
 [[nodiscard]] constexpr std::array<const char*, 14> names(SettingName) {
   return {"rate",      "volume",        "strength",   "verbosity",   "touch",
-          "way_words", "near_words",    "turn_sound", "shelf_sound", "near_sound",
+          "way_words", "near_words",    "lead",       "shelf_sound", "near_sound",
           "hit_sound", "arrival_sound", "beacon",     "hold"};
 }
-enum class SettingValue { off, on, brief, normal, full };
-[[nodiscard]] constexpr std::array<const char*, 5> names(SettingValue) {
-  return {"off", "on", "brief", "normal", "full"};
+enum class SettingValue { off, on, brief, normal, full, words, ticks, flow, hand };
+[[nodiscard]] constexpr std::array<const char*, 9> names(SettingValue) {
+  return {"off", "on", "brief", "normal", "full", "words", "ticks", "flow", "hand"};
 }
 
 /// What is put into a phrase: numbers, words of fixed sets, and names that a PersonFile or a file

@@ -19,7 +19,7 @@ constexpr double kSameGoal = 0.5;
 
 Utterances RouteCues::update(const Observation& now, bool halted, double time) {
   const Guidance& guidance = *now.guidance;
-  by_sound_ = now.sounds.turn;
+  by_sound_ = now.lead != Lead::words;
   if (leg_.ends(guidance, config_.kSameCorner)) bearing_.begin_leg();
   bearing_.observe(now, halted, time);
   if (!bearing_.hour() || !std::isfinite(guidance.waypoint_distance)) return {};
@@ -35,7 +35,9 @@ Utterances RouteCues::update(const Observation& now, bool halted, double time) {
   const bool aside = guidance.state == Guidance::State::make_room;
   if (is_new_goal(guidance) && !aside) return introduce_goal(look);
   Utterances told = sight_of_goal(now, time);
-  const Utterances led = by_sound_ ? sounds_lead(look, leg_) : words_lead(look, leg_);
+  const Utterances led = lasts(now.lead) ? words_beside(look, leg_)
+                         : by_sound_     ? sounds_lead(look, leg_)
+                                         : words_lead(look, leg_);
   told.insert(told.end(), led.begin(), led.end());
   return told;
 }
@@ -58,7 +60,11 @@ Utterances RouteCues::introduce_goal(const Look& look) {
   goal_ = look.guidance().goal;
   unseen_ = {look.guidance().ends_short, false, false, look.time};
   leg_.begin(look.guidance());
-  Utterances told = tell_way(look, leg_);
+  Utterances told;
+  if (lasts(look.now.lead))
+    leg_.heard(look.hour(), look.time);
+  else
+    told = tell_way(look, leg_);
   told.insert(unseen_.told ? told.begin() : told.end(), start_words(look.now, look.bearing.rounding()));
   return told;
 }

@@ -31,7 +31,7 @@ TEST(RouteCues, introduce_a_goal_whose_bearing_is_unknown_by_its_distance) {
 TEST(RouteCues, introduce_a_goal_that_is_not_seen_as_such_without_the_length_of_the_path) {
   for (const bool sound : {true, false}) {
     Drive drive;
-    drive.now.sounds.turn = sound;
+    drive.now.lead = sound ? Lead::ticks : Lead::words;
     drive.now.goal_angle = rad(-60.0);
     drive.now.guidance = following(90.0, 8.0);
     drive.now.guidance->ends_short = true;
@@ -44,7 +44,7 @@ TEST(RouteCues, introduce_a_goal_that_is_not_seen_as_such_without_the_length_of_
 TEST(RouteCues, say_once_that_the_goal_is_seen_now_and_once_that_it_is_not_any_more) {
   for (const bool sound : {true, false}) {
     Drive drive;
-    drive.now.sounds.turn = sound;
+    drive.now.lead = sound ? Lead::ticks : Lead::words;
     drive.now.guidance = following(0.0, 30.0);
     drive.now.guidance->ends_short = true;
     drive.now.commanded.linear = drive.now.measured->linear = 1.0;
@@ -172,7 +172,7 @@ TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
   for (const bool sound : {true, false})
     for (const auto& [angle, hour] : {std::pair(120.0, 4), std::pair(0.0, 12)}) {
       Drive drive;
-      drive.now.sounds.turn = sound;
+      drive.now.lead = sound ? Lead::ticks : Lead::words;
       drive.settle(0.0, 30.0);
       drive.now.guidance->reroutes = 1;
       drive.now.guidance->waypoint = {0.0, -12.0};

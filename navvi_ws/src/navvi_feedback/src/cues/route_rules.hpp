@@ -20,7 +20,7 @@ struct Look {
 
   [[nodiscard]] const Guidance& guidance() const { return *now.guidance; }
   [[nodiscard]] int hour() const { return *bearing.hour(); }
-  [[nodiscard]] bool by_sound() const { return now.sounds.turn; }
+  [[nodiscard]] bool by_sound() const { return now.lead != Lead::words; }
 };
 
 /// What a rule decides: nothing, so that the next one is asked; or what is said, be it nothing.

@@ -70,4 +70,9 @@ Utterances sounds_lead(const Look& look, Leg& leg) {
                   look, leg);
 }
 
+Utterances words_beside(const Look& look, Leg& leg) {
+  if (leg.at_corner()) leg.news = Leg::News::none;
+  return first_of({make_room, tell_route, listen, tell_stray}, look, leg);
+}
+
 }  // namespace navvi_feedback::cues

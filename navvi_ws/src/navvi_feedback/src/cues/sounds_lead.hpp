@@ -9,4 +9,7 @@ namespace navvi_feedback::cues {
 /// \return what is said now; the leg knows of it
 [[nodiscard]] Utterances sounds_lead(const Look& look, Leg& leg);
 
+/// Likewise where a display leads that lasts: words are for what is behind a change of the way.
+[[nodiscard]] Utterances words_beside(const Look& look, Leg& leg);
+
 }  // namespace navvi_feedback::cues

@@ -10,7 +10,7 @@ namespace {
 TEST(SoundsLead, leave_corrections_to_the_sound_while_it_is_heard) {
   for (const bool sound : {true, false}) {
     Drive drive;
-    drive.now.sounds.turn = sound;
+    drive.now.lead = sound ? Lead::ticks : Lead::words;
     drive.settle(0.0, 20.0);
     Kinds said;
     for (const double off : {30.0, -30.0, 60.0, 0.0}) {
@@ -26,7 +26,7 @@ TEST(SoundsLead, say_a_turn_once_and_no_bend_where_a_sound_leads_round) {
   for (const double turn : {90.0, 30.0}) {
     for (const bool announced : {true, false}) {
       Drive drive;
-      drive.now.sounds.turn = true;
+      drive.now.lead = Lead::ticks;
       drive.settle(0.0, 20.0);
       drive.now.guidance = following(0.0, 5.0);
       drive.now.guidance->turn_angle = announced ? rad(turn) : 0.0;
@@ -45,7 +45,7 @@ TEST(SoundsLead, say_a_turn_once_and_no_bend_where_a_sound_leads_round) {
 
 TEST(SoundsLead, say_a_long_leg_again_every_20_s_and_no_end_of_it) {
   Drive drive;
-  drive.now.sounds.turn = true;
+  drive.now.lead = Lead::ticks;
   drive.settle(0.0, 40.0);
   EXPECT_EQ(drive.pass(45.0), (Kinds{CueKind::straight, CueKind::straight}));
   drive.now.guidance->waypoint_distance = 8.0;

@@ -9,6 +9,8 @@ namespace {
 
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
+/// s, of standing, before words say why.
+constexpr double kWhy = 1.0;
 /// s, from one word to the next on what a stick that is pushed waits for.
 constexpr double kHeldBack = 2.5;
 
@@ -81,6 +83,8 @@ bool StateCues::due(const Tick& tick, std::optional<double> halted) const {
 double StateCues::hold(const Tick& tick, std::optional<double> halted) const {
   if (problem_ == CueKind::arrived || problem_ == CueKind::guidance_lost || is_refusal(problem_))
     return 0.0;
+  // The end of what leads has stopped the person; the words are why.
+  if (problem_ == CueKind::blocked && lasts(tick.now.lead)) return kWhy;
   if (problem_ == CueKind::blocked) {
     // Who was just told to stop need not be told to wait as well.
     if (halted && since_ - *halted < kStopped) return kStopped;

@@ -70,7 +70,7 @@ TEST_F(WaitTest, ends_by_go_on_with_the_new_goal_where_that_is_another_one) {
 }
 
 TEST_F(WaitTest, ends_by_go_on_and_the_direction_where_ticks_lead_and_where_words_are_muted) {
-  now_.sounds.turn = true;
+  now_.lead = Lead::ticks;
   WordingConfig wording;
   wording.way = false;
   policy_.use(wording);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "devices/mixer.hpp"
+#include "navvi_feedback/haptics/rumble.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback::devices {
@@ -13,6 +14,10 @@ class EarconPlayer {
  public:
   /// \param mixer  outlives this
   explicit EarconPlayer(Mixer& mixer);
+
+  /// The sound that lasts, from now on. \param flow  shares of both ears, as lead::flow_of()
+  /// \param volume  gain \return whether it is heard, or silent as it should be
+  [[nodiscard]] bool hold(const haptics::Rumble& flow, double volume);
 
   /// \return those that are heard
   [[nodiscard]] std::vector<sounds::Play> play(const std::vector<sounds::Play>& plays);

@@ -18,6 +18,7 @@ enum class Voicing {
   bell,   ///< the same, dying away
   horn,   ///< odd partials, as a warning horn: it holds
   clang,  ///< partials of struck metal, dying away
+  drone,  ///< a motor's hum, without ends: to be repeated
   knock   ///< low and short, as on wood
 };
 
@@ -35,6 +36,7 @@ const Partials& partials(Voicing voicing) {
   static const Partials flute = {{1.0, 0.85}, {2.0, 0.15}};
   static const Partials horn = {{1.0, 0.6}, {3.0, 0.25}, {5.0, 0.15}};
   static const Partials clang = {{1.0, 0.3}, {2.76, 0.3}, {5.4, 0.25}, {8.93, 0.15}};
+  static const Partials drone = {{0.5, 0.2}, {1.0, 0.35}, {2.0, 0.2}, {3.0, 0.15}, {5.0, 0.1}};
   static const Partials knock = {{1.0, 0.7}, {1.6, 0.3}};
   switch (voicing) {
     case Voicing::horn:
@@ -43,6 +45,8 @@ const Partials& partials(Voicing voicing) {
       return clang;
     case Voicing::knock:
       return knock;
+    case Voicing::drone:
+      return drone;
     default:
       return flute;
   }
@@ -100,6 +104,8 @@ std::vector<Note> notes(sounds::Earcon earcon) {
               {V::bell, 1046.5, 1046.5, 0.35}};
     case Earcon::beacon:
       return {{V::bell, 880.0, 880.0, 0.08}};
+    case Earcon::flow:
+      return {{V::drone, 220.0, 220.0, 1.0}};
     case Earcon::unsaid:  // as a mumbled word
       return {{V::horn, 330.0, 262.0, 0.15}, kRest, {V::horn, 330.0, 196.0, 0.3}};
   }
@@ -107,6 +113,7 @@ std::vector<Note> notes(sounds::Earcon earcon) {
 }
 
 double loudness(const Note& note, double time) {
+  if (note.voicing == Voicing::drone) return 0.3;
   const bool dies = note.voicing != Voicing::flute && note.voicing != Voicing::horn;
   const double edges = std::min({1.0, time / kAttack, (note.seconds - time) / kAttack});
   return edges * (dies ? std::exp(-4.0 * time / note.seconds) : 1.0);

@@ -6,7 +6,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace navvi_feedback::devices {
@@ -63,8 +65,9 @@ void MixerConfig::describe(navvi_config::Visitor& visit) {
 }
 
 struct Mixer::Handles {
-  /// The first is the voice's.
-  static constexpr std::size_t kSources = 9;
+  /// The first is the voice's, the last that of what lasts.
+  static constexpr std::size_t kSources = 10;
+  static constexpr std::size_t kLasting = kSources - 1;
 
   ALCdevice* device = nullptr;
   ALCcontext* context = nullptr;
@@ -220,8 +223,27 @@ void Mixer::stop() {
 bool Mixer::play(const Sound& sound, double gain, const Eigen::Vector2d& from) {
   const std::unique_lock lock(device_mutex_, kPatience);
   if (!lock || !connected()) return false;
-  handles_->next = handles_->next % (Handles::kSources - 1) + 1;
+  handles_->next = handles_->next % (Handles::kLasting - 1) + 1;
   return handles_->start(handles_->next, sound, volume_ * gain, from);
+}
+
+bool Mixer::hold(const Sound& sound, double gain, double pitch, double leftness) {
+  const std::unique_lock lock(device_mutex_, kPatience);
+  if (!lock || !connected()) return false;
+  const ALuint source = handles_->sources.at(Handles::kLasting);
+  const Eigen::Vector2d from(std::sqrt(std::max(0.0, 1.0 - leftness * leftness)), leftness);
+  ALint state = AL_STOPPED;
+  alGetSourcei(source, AL_SOURCE_STATE, &state);
+  if (state != AL_PLAYING) {
+    if (gain <= 0.0) return true;
+    alSourcei(source, AL_LOOPING, AL_TRUE);
+    if (!handles_->start(Handles::kLasting, sound, 0.0, from)) return false;
+  }
+  // The mixer ramps to each new value over one period.
+  alSourcef(source, AL_GAIN, static_cast<float>(volume_ * gain));
+  alSourcef(source, AL_PITCH, static_cast<float>(pitch));
+  place(source, from);
+  return true;
 }
 
 }  // namespace navvi_feedback::devices

@@ -69,6 +69,11 @@ class Mixer {
   /// Frees what the voice said. Call it some periods after mute().
   void stop();
 
+  /// What lasts besides all else, from now on: repeated, its ends joined without a jump.
+  /// \param pitch  times that of the sound \param leftness  where it is, -1 right to 1 left
+  /// \param gain  0: silent \return false if nothing is heard
+  [[nodiscard]] bool hold(const Sound& sound, double gain, double pitch, double leftness);
+
   /// Besides all else. It does not wait for a device that is being opened.
   /// \param from  m, in base_link: where it comes from; how far off does not matter
   /// \return false if nothing is heard

@@ -9,10 +9,6 @@
 namespace navvi_feedback::haptics {
 namespace {
 
-/// rad; who heads there by so little feels nothing.
-constexpr double kOnCourse = 0.2;
-/// Of the force that attracts.
-constexpr double kLeast = 0.2;
 /// Of a change of a motor's force: what every driver can tell from none, so that a change begins
 /// with the message that asks for it, however soon that comes after the last one.
 constexpr double kStep = 2.0 / 255.0;
@@ -36,8 +32,6 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
   visit(enabled, "enabled", Any{}, "", "false: the motors stay off");
   visit(near, "near", Any{}, "", "false: only patterns are felt, such as that of a hit");
   visit(strength, "strength", Range{0.1, 1.0}, "", "share of their force that the motors have");
-  visit(steer, "steer", OneOf{{"repulsive", "attractive"}}, "",
-        "what the motors tell all the time: what is near, on its side, or the side to steer to");
   visit(range, "range", Range{0.5, 20.0}, "m", "a thing is felt if its gap is less than this");
   visit(center, "center", Range{0.0, 5.0}, "m",
         "a thing whose nearest point lies less far to the side is felt in both motors");
@@ -50,7 +44,8 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
   visit(patterns, "patterns", Any{}, "",
         "hits, stops, a stuck robot, new routes and the arrival are felt, each by its own pattern");
   visit(instead_of_words, "instead_of_words", Any{}, "",
-        "while there should be sound and is none, the motors attract, and alarms are felt");
+        "while there should be sound and is none, the motors lead as by feedback/lead:=hand, and "
+        "alarms are felt");
   visit(normalize, "normalize", Any{}, "",
         "log curve: divide by ln 2, so that touching gives full force");
   visit(classes, "classes",
@@ -150,24 +145,14 @@ void Haptics::stop() {
   force_ = {};
 }
 
-/// As if something pulled from that side, the harder the more is left to turn.
-std::optional<Haptics::Felt> Haptics::attraction(std::optional<double> off) const {
-  const double from = zone_ ? kOnCourse / 2.0 : kOnCourse;
-  if (!off || std::abs(*off) < from) return std::nullopt;
-  const double far = 2.0 * std::max(1.0, config_.center);  // m, beside the robot
-  return Felt{*off > 0.0 ? -far : far, kLeast + (1.0 - kLeast) * std::min(1.0, std::abs(*off))};
-}
-
-Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt,
-                       std::optional<double> off, bool deaf) {
+Rumble Haptics::update(const std::vector<NearThing>& things, bool fresh, double dt) {
   if (!fresh || !config_.enabled || !config_.near) {
     stop();
     return {};
   }
   double wanted_left = 0.0;
   double wanted_right = 0.0;
-  const bool attract = config_.steer == "attractive" || (deaf && off);
-  if (const auto felt = attract ? attraction(off) : strongest(things)) {
+  if (const auto felt = strongest(things)) {
     felt_for_ += dt;
     zone_ = zone_of(felt->lateral);
     const double ramp =

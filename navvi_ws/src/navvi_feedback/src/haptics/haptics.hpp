@@ -21,7 +21,6 @@ struct HapticsConfig {
   bool enabled = true;
   bool near = true;
   double strength = 1.0;
-  std::string steer = "repulsive";
   double range = 5.0;   // m
   double center = 1.0;  // m
   std::string curve = "power";
@@ -56,9 +55,9 @@ enum class Zone { left, center, right };
 /// ln(1 + (1 - gap / range)), which peaks at ln 2; with `normalize` it is divided by ln 2.
 [[nodiscard]] double rumble_force(const HapticsConfig& config, double gap);
 
-/// Makes what is nearest felt (R-HAP-1 to 5), what is ahead more than what is behind, or, to
-/// attract, the side to steer to: the pure law, then what keeps a motor from jolting (onset ramp,
-/// slew limit) and from chattering (hysteresis at the range and between the zones).
+/// Makes what is nearest felt (R-HAP-1 to 5), what is ahead more than what is behind: the pure law,
+/// then what keeps a motor from jolting (onset ramp, slew limit) and from chattering (hysteresis at
+/// the range and between the zones).
 class Haptics {
  public:
   /// \throws navvi_config::ConfigError if `classes` holds a word that is no class, or `pads` what
@@ -76,10 +75,7 @@ class Haptics {
   /// \param things  all with finite numbers in base_link; in any order
   /// \param fresh  false when sensing is stale: the motors stop at once
   /// \param dt  s since the last call, >= 0
-  /// \param off  rad, clockwise from the nose to where to steer; nullopt: nowhere
-  /// \param deaf  no word can tell that: as if attractive, while it is known
-  [[nodiscard]] Rumble update(const std::vector<NearThing>& things, bool fresh, double dt,
-                              std::optional<double> off = std::nullopt, bool deaf = false);
+  [[nodiscard]] Rumble update(const std::vector<NearThing>& things, bool fresh, double dt);
 
   /// The zone of what is felt now; nullopt while nothing is.
   [[nodiscard]] std::optional<Zone> zone() const { return zone_; }
@@ -90,7 +86,6 @@ class Haptics {
     double lateral = 0.0;  ///< m, to the left
     double force = 0.0;    ///< [0, 1]
   };
-  [[nodiscard]] std::optional<Felt> attraction(std::optional<double> off) const;
   [[nodiscard]] std::optional<Felt> strongest(const std::vector<NearThing>& things) const;
   [[nodiscard]] Zone zone_of(double lateral) const;
   void stop();

@@ -247,23 +247,5 @@ TEST(RumbleOutput, repeats_the_values_for_drivers_without_memory) {
   EXPECT_LE(sent, 11);
 }
 
-TEST(Haptics, attracts_to_the_side_to_steer_to_whatever_is_near) {
-  HapticsConfig config;
-  config.steer = "attractive";
-  const std::vector<NearThing> near = {{ThingClass::worker, 1, 0.2, {0.6, 0.0}, true}};
-  const auto felt = [&](std::optional<double> off) {
-    Haptics haptics(config);
-    Rumble rumble;
-    for (int i = 0; i < 50; ++i) rumble = haptics.update(near, true, 0.02, off);
-    return rumble;
-  };
-  EXPECT_EQ(felt(std::nullopt).left + felt(std::nullopt).right, 0.0);
-  EXPECT_EQ(felt(0.1).left + felt(-0.1).right, 0.0) << "on course";
-  EXPECT_GT(felt(0.5).right, 0.2);
-  EXPECT_EQ(felt(0.5).left, 0.0);
-  EXPECT_GT(felt(-1.5).left, felt(-0.5).left);
-  EXPECT_EQ(felt(-1.5).right, 0.0);
-}
-
 }  // namespace
 }  // namespace navvi_feedback::haptics

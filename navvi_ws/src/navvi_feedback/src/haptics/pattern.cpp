@@ -16,10 +16,11 @@ struct Beat {
   bool soft = false;  ///< half a sine wave: no jolt at either end
 };
 
+constexpr double kTap = 0.4;  // s, a tap of an answer and the pause after it
 constexpr Beat kRest = {0.1, 0.0, 0.0};
 
 const std::vector<Beat>& beats(Pattern pattern) {
-  static const std::array<std::vector<Beat>, 11> all = {{
+  static const std::array<std::vector<Beat>, 12> all = {{
       {{0.5, 1.0, 1.0}, kRest},
       {{0.1, 0.5, 0.5}, kRest, {0.1, 0.5, 0.5}, kRest},
       {{0.2, 0.5, 0.5}, kRest},
@@ -31,6 +32,7 @@ const std::vector<Beat>& beats(Pattern pattern) {
        {0.25, 0.0, 0.0},
        {0.25, 0.5, 0.5, true},
        {0.25, 0.0, 0.0}},
+      {{0.6, 0.7, 0.7}, {0.4, 0.0, 0.0}},
       {{0.08, 0.8, 0.8},
        {0.08, 0.0, 0.0},
        {0.08, 0.8, 0.8},
@@ -49,8 +51,9 @@ const std::vector<Beat>& beats(Pattern pattern) {
 
 }  // namespace
 
-void PatternPlayer::begin(Pattern pattern, Zone side) {
+void PatternPlayer::begin(Pattern pattern, Zone side, int taps) {
   if (playing_ && *playing_ > pattern) return;
+  taps_ = taps;
   playing_ = pattern;
   side_ = side;
   since_ = 0.0;
@@ -67,6 +70,11 @@ std::optional<Rumble> PatternPlayer::update(double dt) {
     const double force = beat.soft ? std::sin(navvi_types::kPi * within / beat.seconds) : 1.0;
     return Rumble{side_ == Zone::right ? 0.0 : force * beat.left,
                   side_ == Zone::left ? 0.0 : force * beat.right};
+  }
+  if (const double tap = (since_ - begins) / kTap; tap < taps_) {
+    since_ += dt;
+    const double force = tap - std::floor(tap) < 0.5 ? 0.7 : 0.0;
+    return Rumble{force, force};
   }
   playing_.reset();
   return std::nullopt;

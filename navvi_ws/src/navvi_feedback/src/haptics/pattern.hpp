@@ -14,7 +14,8 @@ class PatternPlayer {
  public:
   /// Begins at once, unless a more urgent one plays.
   /// \param side  the motors that take part
-  void begin(Pattern pattern, Zone side = Zone::center);
+  /// \param taps  of an answer
+  void begin(Pattern pattern, Zone side = Zone::center, int taps = 0);
   void stop() { playing_.reset(); }
 
   /// \param dt  s since the last call, >= 0
@@ -25,6 +26,7 @@ class PatternPlayer {
  private:
   std::optional<Pattern> playing_;
   Zone side_ = Zone::center;
+  int taps_ = 0;
   double since_ = 0.0;  ///< s
 };
 

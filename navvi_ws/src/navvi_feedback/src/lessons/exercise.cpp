@@ -79,6 +79,34 @@ class TurnExercise : public Exercise {
   Word stop_;
 };
 
+/// Follow a display that lasts to a place `amount` degrees clockwise.
+class FollowExercise : public Exercise {
+ public:
+  explicit FollowExercise(const Step& step)
+      : lead_(step.task == Task::by_hand ? Lead::hand : Lead::flow),
+        place_(kWay * std::cos(step.amount * kDegree), -kWay * std::sin(step.amount * kDegree)) {}
+  Verdict judge(const Instant& now) override {
+    const Eigen::Vector2d left = place_ - now.moved.to;
+    if (left.norm() < kThere) {
+      arrived_ = true;
+      return now.settled() ? Verdict{true} : Verdict{};
+    }
+    if (arrived_ || left.norm() > 1.5 * kWay) return {false, "place"};
+    const double off =
+        navvi_types::wrap(-std::atan2(left.y(), left.x()) + now.moved.turned);
+    const double speed = std::max(0.0, 0.5 * (1.0 - std::abs(off) / lead::kOnTheSpot));
+    now.taught.course = Shown{{off, speed}, lead_};
+    return {};
+  }
+
+ private:
+  static constexpr double kWay = 1.5;    // m
+  static constexpr double kThere = 0.4;  // m
+  Lead lead_;
+  Eigen::Vector2d place_;  ///< m, in base_link as it was at first
+  bool arrived_ = false;
+};
+
 /// Tell on which side something is near.
 class SideExercise : public Exercise {
  public:
@@ -169,6 +197,9 @@ std::unique_ptr<Exercise> begin_exercise(const Step& step, int tries) {
       return begin_back_away(step);
     case Task::turn:
       return std::make_unique<TurnExercise>(step);
+    case Task::by_sound:
+    case Task::by_hand:
+      return std::make_unique<FollowExercise>(step);
     case Task::make_room:
       return begin_make_room(step);
     case Task::side:

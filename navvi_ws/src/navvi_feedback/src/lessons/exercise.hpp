@@ -16,6 +16,8 @@ enum class Task {
   wait,       ///< let go at a word, and drive on at another
   back_away,  ///< at a word
   turn,       ///< and stop in time
+  by_sound,   ///< follow a sound that lasts to a place
+  by_hand,    ///< follow the motors, likewise
   make_room,  ///< drive to where a word sends
   side,       ///< tell on which side something is near
   press,      ///< a button

@@ -22,6 +22,9 @@ constexpr double kFrom = 3.0;
 /// deg, and deg/s, of the turn that is counted down.
 constexpr double kTurn = 90.0;
 constexpr double kRate = 35.0;
+/// s and rad, of a way that is shown.
+constexpr double kSweep = 6.0;
+constexpr double kWide = 0.7;
 /// Hour, where room is made.
 constexpr int kAside = 4;
 
@@ -36,6 +39,8 @@ std::vector<Glossary::Entry> Glossary::all() {
   entries.push_back({"glossary_near_left", {}, {}, cues::Side::left});
   entries.push_back({"glossary_near_right", {}, {}, cues::Side::right});
   entries.push_back({"glossary_near_ahead", {}, {}, cues::Side::ahead});
+  entries.push_back({"glossary_felt_hand"});
+  entries.back().by_hand = true;
   for (std::size_t i = 0; i < names(Pattern{}).size(); ++i)
     entries.push_back({std::string("glossary_felt_") + names(Pattern{})[i], Pattern(i)});
   for (std::size_t i = 0; i < names(Earcon{}).size(); ++i)
@@ -67,6 +72,7 @@ Glossary::Glossary(const cues::Phrases& phrases, const drive::ButtonsConfig& but
 /// What a session does not give is not in its glossary.
 bool Glossary::given(const Entry& entry, const Observation& seen) const {
   if (entry.hour > 0) return clock_;
+  if (entry.by_hand) return seen.motors && haptics_.enabled;
   if (entry.near) return seen.motors && haptics_.enabled && haptics_.near;
   if (entry.pattern) return seen.motors && haptics_.enabled && haptics_.patterns;
   if (entry.earcon) return seen.audible && sounds_.enabled && sounds_.family_of(*entry.earcon).on;
@@ -148,6 +154,14 @@ void Glossary::give(const Entry& entry, double since, Taught& taught) {
     thing.gap = gap;
     thing.nearest = (gap + haptics_.center + 0.3) * cues::direction_of(*entry.near);
     taught.near.push_back(thing);
+  }
+  if (entry.by_hand || entry.earcon == Earcon::flow) {
+    // From the left over straight on to the right, ever faster.
+    const double share = since / kSweep;
+    if (share < 1.0)
+      taught.course = Shown{{kWide * (2.0 * share - 1.0), share},
+                            entry.by_hand ? Lead::hand : Lead::flow};
+    return;
   }
   if (entry.earcon == Earcon::turn) {
     const double off = kTurn - kRate * since;

@@ -34,6 +34,7 @@ class Glossary : public Lesson {
     std::optional<cues::Side> near = {};  ///< what is felt of a thing there
     std::optional<CueKind> words = {};    ///< a phrase
     int hour = 0;                         ///< of that phrase
+    bool by_hand = false;                 ///< pulses that lead
   };
   [[nodiscard]] static std::vector<Entry> all();
   [[nodiscard]] bool given(const Entry& entry, const Observation& seen) const;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <navvi_config/reader.hpp>
+#include <map>
 #include <set>
 
 #include "lessons/calibration.hpp"
@@ -35,6 +36,7 @@ class GlossaryTest : public testing::Test {
       }
       if (taught.pattern) felt_.push_back(*taught.pattern);
       if (taught.off) ++counted_;
+      if (taught.course) ++shown_[taught.course->lead];
       near_ += taught.near.empty() ? 0 : 1;
       for (const sounds::Play& play : taught.plays) heard_.insert(play.earcon);
       const bool nothing = taught.cues.empty() && !taught.pattern && taught.near.empty() &&
@@ -58,6 +60,7 @@ class GlossaryTest : public testing::Test {
   std::vector<haptics::Pattern> felt_;
   std::set<sounds::Earcon> heard_;
   int counted_ = 0;
+  std::map<Lead, int> shown_;
   int near_ = 0;
 };
 
@@ -66,7 +69,10 @@ TEST_F(GlossaryTest, gives_every_pattern_sound_and_word_one_after_another) {
     hear(i > 0 ? std::optional(Button::next) : std::nullopt);
   EXPECT_TRUE(glossary_.over());
   EXPECT_EQ(felt_.size(), 2 * names(haptics::Pattern{}).size());
-  EXPECT_EQ(heard_.size() + 1, names(sounds::Earcon{}).size()) << "all but the one that is counted";
+  EXPECT_EQ(heard_.size() + 2, names(sounds::Earcon{}).size())
+      << "all but the one that is counted and the one that lasts";
+  EXPECT_GT(shown_[Lead::flow], 150);
+  EXPECT_GT(shown_[Lead::hand], 150);
   EXPECT_GT(counted_, 100);
   EXPECT_GT(near_, 300);
   for (const char* kind : {"obstacle_stop", "blocked", "back_away", "go_on", "turn_now"})

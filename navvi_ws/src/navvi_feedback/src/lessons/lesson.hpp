@@ -9,10 +9,17 @@
 #include "drive/drive.hpp"
 #include "haptics/haptics.hpp"
 #include "haptics/pattern.hpp"
+#include "lead/course.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "senses/observation.hpp"
 
 namespace navvi_feedback::lessons {
+
+/// A course that a lesson shows, and the way of leading.
+struct Shown {
+  lead::Course course;
+  Lead lead = Lead::flow;
+};
 
 /// What a lesson wants to be heard and felt, by the ways of a session.
 struct Taught {
@@ -24,6 +31,7 @@ struct Taught {
   std::optional<haptics::Rumble> rumble;       ///< instead of what is near
   std::optional<double> off;                   ///< rad, as TurnSound takes it
   std::optional<Velocity> motion;              ///< likewise, where not the robot's own
+  std::optional<Shown> course;
 };
 
 /// Something to learn by ear and hand, one step after another.

@@ -29,6 +29,8 @@ const std::vector<Step>& Tutorial::steps() {
       {"turn_right", Task::turn, 90.0},
       {"turn_left", Task::turn, -60.0},
       {"make_room", Task::make_room, -60.0},
+      {"by_sound", Task::by_sound, 50.0},
+      {"by_hand", Task::by_hand, -50.0},
       {"near_right", Task::side, 0.0, cues::Side::right},
       {"near_ahead", Task::side, 0.0, cues::Side::ahead},
       {"near_left", Task::side, 0.0, cues::Side::left},
@@ -122,8 +124,17 @@ void Tutorial::finish(bool passed) {
   next();
 }
 
+/// What leads in it reaches the person.
+bool Tutorial::given(const Step& step) const {
+  return step.task == Task::by_sound ? audible_ : step.task != Task::by_hand || motors_;
+}
+
 void Tutorial::next() {
-  if (!practising_ && at_ + 1 < steps().size()) return begin(at_ + 1);
+  if (!practising_) {
+    std::size_t at = at_ + 1;
+    while (at < steps().size() && !given(steps()[at])) ++at;
+    if (at < steps().size()) return begin(at);
+  }
   if (const auto weak = weakest(); weak && !practising_) {
     practising_ = true;
     teller_.then(key("practice"));
@@ -132,8 +143,10 @@ void Tutorial::next() {
   const auto well = std::count_if(results_.begin(), results_.end(), [](const Result& result) {
     return result.passed && result.tries == 1 && !result.practice;
   });
-  leave(static_cast<std::size_t>(well) == steps().size() ? "well" : "done",
-        {{"count", std::to_string(well)}, {"all", std::to_string(steps().size())}});
+  const auto all = std::count_if(steps().begin(), steps().end(),
+                                 [&](const Step& step) { return given(step); });
+  leave(well == all ? "well" : "done",
+        {{"count", std::to_string(well)}, {"all", std::to_string(all)}});
 }
 
 /// The step that took the most tries, and of those the longest.
@@ -169,6 +182,8 @@ Taught Tutorial::update(const Observation& seen, double time) {
   const double dt = std::clamp(time - time_, 0.0, kLongestTick);
   time_ = time;
   trial_ = seen.trial;
+  audible_ = seen.audible;
+  motors_ = seen.motors;
   teller_.hands(seen.devices.keyboard);
   if (results_.empty()) {
     teller_.tell(key("welcome"));

@@ -51,6 +51,7 @@ class Tutorial : public Lesson {
   void leave(const std::string& key, const Teller::Fillings& fillings = {});
   void finish(bool passed);
   void next();
+  [[nodiscard]] bool given(const Step& step) const;
   [[nodiscard]] std::optional<std::size_t> weakest() const;
   [[nodiscard]] const Step& step() const { return steps()[at_]; }
 
@@ -60,6 +61,7 @@ class Tutorial : public Lesson {
   bool over_ = false;
   bool in_trial_ = false;
   bool practising_ = false;
+  bool audible_ = true, motors_ = true;
   std::vector<Result> results_;       ///< the last is of the step that is being made
   std::optional<double> step_since_;  ///< s
   double time_ = 0.0;                 ///< s, of the last update

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -29,6 +30,8 @@ class TutorialTest : public testing::Test {
         {"back_away", [this](double) { obey("said_back_away", -0.6, 0.0); }},
         {"turn_right", [this](double) { seen_.stick.x = off_ && *off_ > 0.2 ? -0.5 : 0.0; }},
         {"turn_left", [this](double) { seen_.stick.x = off_ && *off_ < -0.2 ? 0.5 : 0.0; }},
+        {"by_sound", [this](double) { follow(Lead::flow); }},
+        {"by_hand", [this](double) { follow(Lead::hand); }},
         {"make_room", [this](double) { make_room(0.5); }},
         {"near_right", [this](double t) { seen_.stick.x = t > 0.5 && near_ ? -1.0 : 0.0; }},
         {"near_ahead", [this](double t) { seen_.stick.y = t > 0.5 && near_ ? 1.0 : 0.0; }},
@@ -60,6 +63,12 @@ class TutorialTest : public testing::Test {
     else if (!arrives_)
       arrives_ = time_ + 0.5;
     if (arrives_ && time_ > *arrives_ && time_ < *arrives_ + 1.2) seen_.stick.y = 1.0;
+  }
+  /// Steers to where the lesson shows.
+  void follow(Lead lead) {
+    if (!course_) return;
+    EXPECT_EQ(course_->lead, lead);
+    seen_.stick = {std::clamp(-2.0 * course_->course.turn, -1.0, 1.0), course_->course.speed};
   }
   void press(Button button, double since) {
     if (since >= 0.5 && since < 0.52) seen_.pressed = {button};
@@ -114,6 +123,7 @@ class TutorialTest : public testing::Test {
     const Taught taught = tutorial_.update(seen_, time_);
     seen_.begun.clear();
     off_ = taught.off;
+    course_ = taught.course;
     near_ = !taught.near.empty();
     if (taught.pattern) felt_[step] = *taught.pattern;
     for (const cues::Cue& cue : taught.cues) {
@@ -149,6 +159,7 @@ class TutorialTest : public testing::Test {
   std::map<std::string, std::string> texts_;      // as spoken last
   std::map<std::string, haptics::Pattern> felt_;  // by step
   std::optional<double> off_;
+  std::optional<Shown> course_;
   bool near_ = false;
   int tries_ = 0;
   int told_ = 0;
@@ -168,6 +179,26 @@ TEST_F(TutorialTest, is_passed_by_doing_each_step_and_practises_the_one_that_too
   EXPECT_NE(result(steps).step, "goal");
   EXPECT_EQ(count("well"), 1);
   EXPECT_GE(time_, speaks_until_) << "heard to its last word";
+}
+
+TEST_F(TutorialTest, passes_over_ways_of_leading_that_do_not_reach_the_person) {
+  seen_.audible = seen_.motors = false;
+  hands_["turn_right"] = hands_["turn_left"] = [](double) {};
+  run(30.0);
+  for (std::size_t i = 0; i < Tutorial::steps().size() && !tutorial_.over(); ++i) {
+    presses_ = {Button::next};
+    run(5.0);
+  }
+  for (const Tutorial::Result& result : tutorial_.results()) {
+    EXPECT_NE(result.step, "by_sound");
+    EXPECT_NE(result.step, "by_hand");
+  }
+}
+
+TEST_F(TutorialTest, names_the_error_of_a_person_who_does_not_follow_what_leads) {
+  hands_["by_sound"] = [this](double) { seen_.stick.y = 1.0; };
+  run(120.0);
+  EXPECT_GE(count("wrong_place"), 1);
 }
 
 TEST_F(TutorialTest, passes_nothing_without_doing_it) {

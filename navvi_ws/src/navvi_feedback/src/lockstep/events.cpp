@@ -23,9 +23,14 @@ CueEvent sound_event(const sounds::Play& play, std::uint32_t id) {
           play.volume * 0.5 * (1.0 - leftness)};
 }
 
+CueEvent flow_event(const haptics::Rumble& flow, std::uint32_t id) {
+  return {id,        CueStage::started, sounds::Earcon::flow, "", Priority::progress,
+          flow.left, flow.right};
+}
+
 std::optional<sounds::Play> sound_of(const CueEvent& event) {
   const auto* const earcon = std::get_if<sounds::Earcon>(&event.what);
-  if (earcon == nullptr) return std::nullopt;
+  if (earcon == nullptr || *earcon == sounds::Earcon::flow) return std::nullopt;
   const double volume = event.left + event.right;
   if (!(volume > 0.0)) return std::nullopt;
   const double leftness = (event.left - event.right) / volume;

@@ -16,7 +16,9 @@ namespace navvi_feedback::lockstep {
 /// Likewise, of the kind of its earcon; its volume is shared by the two sides.
 /// \param id  counts the sounds
 [[nodiscard]] CueEvent sound_event(const sounds::Play& play, std::uint32_t id);
-/// What such an event tells to play; nullopt if it is none. Ahead and behind are the same.
+/// Of what lasts: it sounds so from now on. \param flow  shares of both ears
+[[nodiscard]] CueEvent flow_event(const haptics::Rumble& flow, std::uint32_t id);
+/// What such an event tells to play; nullopt if it is none, or lasts. Ahead and behind are the same.
 [[nodiscard]] std::optional<sounds::Play> sound_of(const CueEvent& event);
 
 }  // namespace navvi_feedback::lockstep

@@ -25,6 +25,10 @@ GuideConfig::~GuideConfig() = default;
 
 void GuideConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
 bool GuideConfig::has_sounds() const { return values_->sounds.enabled; }
+std::string GuideConfig::lead(bool audible) const {
+  const haptics::HapticsConfig& touch = values_->haptics;
+  return !audible && touch.enabled && touch.instead_of_words ? "hand" : values_->lead;
+}
 
 struct Guide::Parts {
   Parts(const core::FeedbackConfig& config, const std::filesystem::path& phrases)
@@ -33,7 +37,7 @@ struct Guide::Parts {
   Feedback feedback;
   cues::CueQueue queue;
   cues::HeardWords heard_words;
-  haptics::RumbleOutput rumble_output;
+  haptics::RumbleOutput rumble_output, flow_output;
   navvi_types::StallGuard stall;
   std::vector<CueKind> news;  ///< not said yet
   bool runs = false;          ///< a trial
@@ -50,6 +54,7 @@ struct Guide::Parts {
     out.rumble_moved = due.moved;
     // The record holds what can have been felt.
     if (due.changed && somebody_feels) out.felt = rumble_event(rumble, pattern, ++rumbles);
+    if (flow_output.update(out.flow, time).changed) out.flowed = flow_event(out.flow, ++sounds);
   }
 };
 

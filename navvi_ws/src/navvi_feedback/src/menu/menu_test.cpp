@@ -270,7 +270,7 @@ TEST_F(MenuTest, has_the_glossary_while_no_trial_runs) {
 }
 
 TEST_F(MenuTest, changes_a_setting_step_by_step) {
-  menu_.take_settings({{"speaker/rate", "230"}, {"sounds/turn/on", "true"}});
+  menu_.take_settings({{"speaker/rate", "230"}, {"lead", "ticks"}});
   EXPECT_EQ(heard({Button::next, Button::next}), "menu_settings");
   EXPECT_EQ(heard({Button::choose}), "setting 230");
   EXPECT_EQ(heard({Button::choose}), "setting_open 230");
@@ -282,9 +282,9 @@ TEST_F(MenuTest, changes_a_setting_step_by_step) {
   EXPECT_EQ(heard({Button::back}), "setting 200");
   press({Button::next, Button::choose});
   step = press({Button::next});
-  EXPECT_EQ(step.change, "sounds/turn/on:=false");
-  EXPECT_EQ(step.told.value().fillings.value, cues::SettingValue::off);
-  EXPECT_EQ(press({Button::next}).change, "sounds/turn/on:=false") << "the last of its values";
+  EXPECT_EQ(step.change, "lead:=words");
+  EXPECT_EQ(step.told.value().fillings.value, cues::SettingValue::words);
+  EXPECT_EQ(press({Button::next}).change, "lead:=words") << "the last of its values";
   EXPECT_EQ(press({Button::choose}).told.value().kind, CueKind::setting) << "done";
 }
 

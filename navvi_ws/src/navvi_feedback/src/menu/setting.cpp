@@ -39,7 +39,7 @@ const std::vector<Setting>& settings() {
         {Name::touch, "haptics/near", off_on, true},
         {Name::way_words, "cues/wording/way", off_on},
         {Name::near_words, "cues/wording/near", off_on},
-        {Name::turn_sound, "sounds/turn/on", off_on, false, Earcon::turn},
+        {Name::lead, "lead", {"words", "ticks", "flow", "hand"}},
         {Name::shelf_sound, "sounds/shelf/on", off_on, false, Earcon::shelf_near},
         {Name::near_sound, "sounds/near/on", off_on, false, Earcon::worker_near},
         {Name::hit_sound, "sounds/hit/on", off_on, false, Earcon::hit_shelf},
@@ -69,10 +69,7 @@ std::string Setting::step(const std::string& value, bool up) const {
 cues::Utterance Setting::say(CueKind kind, const std::string& value) const {
   cues::Utterance told{kind};
   told.fillings.setting = name;
-  for (const auto word :
-       {cues::SettingValue::off, cues::SettingValue::on, cues::SettingValue::brief,
-        cues::SettingValue::normal, cues::SettingValue::full})
-    if (value == navvi_types::to_string(word)) told.fillings.value = word;
+  told.fillings.value = navvi_types::from_word<cues::SettingValue>(value);
   if (value == "false") told.fillings.value = cues::SettingValue::off;
   if (value == "true") told.fillings.value = cues::SettingValue::on;
   if (name == cues::SettingName::hold)

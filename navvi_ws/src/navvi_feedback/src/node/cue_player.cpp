@@ -13,6 +13,7 @@
 #include "haptics/rumble_output.hpp"
 #include "lockstep/events.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
+#include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::node {
 namespace {
@@ -57,6 +58,8 @@ class CuePlayer {
     using navvi_types::CueStage;
     if (cue.modality() == navvi_types::Modality::rumble) {
       rumble_ = {cue.left, cue.right};
+    } else if (cue.word() == to_string(sounds::Earcon::flow)) {
+      (void)earcons_.hold({cue.left, cue.right}, sounds::FamilyConfig().volume);
     } else if (const auto sound = lockstep::sound_of(cue)) {
       (void)earcons_.play({*sound});
     } else if (cue.modality() != navvi_types::Modality::speech) {

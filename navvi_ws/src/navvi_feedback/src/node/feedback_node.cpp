@@ -126,7 +126,8 @@ class FeedbackNode {
     if (!own_pad && told.rumble_moved && called) called();
     std::vector<CueEvent> events;
     for (const sounds::Play& sound : devices_.obey(told)) events.push_back(guide_.event_of(sound));
-    if (told.felt) events.push_back(*told.felt);
+    for (const auto& lasting : {told.felt, told.flowed})
+      if (lasting) events.push_back(*lasting);
     events.insert(events.end(), told.said.begin(), told.said.end());
     outlets_.send(events);
   }

@@ -82,6 +82,7 @@ void PersonDevices::use(int rate, double volume) {
 std::vector<sounds::Play> PersonDevices::obey(const lockstep::Output& told) {
   std::vector<sounds::Play> played = earcons_.play(told.plays);
   if (by_topic()) played = told.plays;
+  (void)earcons_.hold(told.flow, told.flow_gain);
   for (const sounds::Play& sound : speech_.take_played())
     if (heard()) played.push_back(sound);
   speech_.obey(told.voice, told.answers);

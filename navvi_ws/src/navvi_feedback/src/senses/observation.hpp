@@ -14,6 +14,7 @@
 #include "navvi_feedback/drive/button.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/senses/devices.hpp"
+#include "senses/lead.hpp"
 
 namespace navvi_feedback {
 using navvi_types::Contact;
@@ -38,7 +39,6 @@ struct Links {
 
 /// Which sounds are heard, and do the work of words.
 struct Sounds {
-  bool turn = false;   ///< to where to steer
   bool shelf = false;  ///< a shelf or a wall that is near
   bool near = false;   ///< any other thing that is near
 };
@@ -61,6 +61,7 @@ struct Observation {
   bool audible = true;  ///< short sounds
   bool side_asked = false;  ///< the person is asked which side a sound comes from
   Sounds sounds;
+  Lead lead = Lead::words;  ///< what leads, as far as it reaches the person
 
   // The robot
   Links links;
@@ -92,6 +93,7 @@ struct Observation {
 }  // namespace navvi_feedback::senses
 
 namespace navvi_feedback {
+using senses::Lead;
 using senses::Link;
 using senses::Links;
 using senses::Observation;

@@ -11,7 +11,7 @@ void FamilyConfig::describe(navvi_config::Visitor& visit) {
 }
 
 void TurnConfig::describe(navvi_config::Visitor& visit) {
-  FamilyConfig::describe(visit);
+  visit(volume, "volume", Range{0.0, 1.0}, "", "gain, of ticks and of what lasts");
   visit(stopping_delay, "stopping_delay", Range{0.0, 2.0}, "s",
         "how much earlier it ends: what the person and the robot take to stop a turn");
   visit(stopping_spread, "stopping_spread", Range{0.0, 2.0}, "s",

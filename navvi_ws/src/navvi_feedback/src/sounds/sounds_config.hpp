@@ -39,6 +39,7 @@ struct SoundsConfig {
   static constexpr double kCaptureRadius = 1.5;  ///< m, nearer than this a way-point has no beacon
   /// share of its volume that a sound has while words are spoken; a hit has it all
   static constexpr double kUnderWords = 0.3;
+  static constexpr double kFlowUnderWords = 0.5;  ///< likewise of the sound that lasts
   std::string sides;  ///< sound device by which the person tells sides
 
   void describe(navvi_config::Visitor& visit);

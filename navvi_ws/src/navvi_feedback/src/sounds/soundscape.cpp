@@ -19,7 +19,7 @@ bool due(std::optional<double>& last, double distance, double time) {
 }
 
 /// m, in base_link: where to go next.
-std::optional<Eigen::Vector2d> waypoint(const Observation& now, const Soundscape::Lead& lead) {
+std::optional<Eigen::Vector2d> waypoint(const Observation& now, const Soundscape::Steering& lead) {
   if (!lead.off || !now.guidance || now.guidance->waypoint_distance <= 0.0) return std::nullopt;
   const double angle = now.guidance->waypoint_angle + now.turned;
   return now.guidance->waypoint_distance * Eigen::Vector2d(std::cos(angle), -std::sin(angle));
@@ -27,11 +27,14 @@ std::optional<Eigen::Vector2d> waypoint(const Observation& now, const Soundscape
 
 }  // namespace
 
-std::vector<Play> Soundscape::update(const Observation& now, const Lead& lead, double time) {
+std::vector<Play> Soundscape::update(const Observation& now, const Steering& lead, double time) {
   std::vector<Play> plays;
-  const auto turn =
-      turn_.update(config_.turn.on ? lead.off : std::nullopt, lead.fine, lead.motion, time);
+  const auto turn = turn_.update(now.lead == Lead::ticks ? lead.off : std::nullopt, lead.fine,
+                                 lead.motion, time);
   if (turn) plays.push_back(*turn);
+  const bool lasts = now.lead == Lead::flow && lead.off;
+  if (const auto tick = notice_.update(now, lasts, config_.turn.volume, time))
+    plays.push_back(*tick);
   const auto next = waypoint(now, lead);
   if (config_.beacon.on && next && next->norm() > config_.kCaptureRadius &&
       due(beacon_, next->norm(), time))

@@ -6,6 +6,7 @@
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "senses/observation.hpp"
 #include "sounds/sounds_config.hpp"
+#include "sounds/turn_notice.hpp"
 #include "sounds/turn_sound.hpp"
 
 namespace navvi_feedback::sounds {
@@ -14,7 +15,7 @@ namespace navvi_feedback::sounds {
 class Soundscape {
  public:
   /// To where the person is led now, each as TurnSound takes it.
-  struct Lead {
+  struct Steering {
     std::optional<double> off;
     bool fine = false;
     Velocity motion;
@@ -29,10 +30,10 @@ class Soundscape {
   }
 
   /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::vector<Play> update(const Observation& now, const Lead& lead, double time);
-  /// Of this person and robot; nullopt where turns do not sound.
+  [[nodiscard]] std::vector<Play> update(const Observation& now, const Steering& lead, double time);
+  /// Of this person and robot; nullopt where nothing sounds.
   [[nodiscard]] std::optional<Learnt> learnt() const {
-    if (!config_.enabled || !config_.turn.on) return std::nullopt;
+    if (!config_.enabled) return std::nullopt;
     return turn_.learnt();
   }
   /// As TurnSound::find_sides_wrong().
@@ -45,6 +46,7 @@ class Soundscape {
  private:
   SoundsConfig config_;
   TurnSound turn_;
+  TurnNotice notice_;
   std::optional<double> beacon_;  ///< s, when it was heard last
 };
 

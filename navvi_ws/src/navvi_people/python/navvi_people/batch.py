@@ -13,14 +13,17 @@ import time
 from pathlib import Path
 from typing import NamedTuple
 
-PEOPLE = ("able", "typical", "struggling", "drawn")
+PEOPLE = ("able", "typical", "struggling", "drawn", "deafblind", "noise")
 CONDITIONS = {
     "default": [],
     "sounds_off": ["feedback/sounds/enabled:=false"],
     "touch_off": ["feedback/haptics/enabled:=false"],
     "words_off": ["speech:=false"],
     "words_alone": ["feedback/sounds/enabled:=false", "feedback/haptics/enabled:=false"],
-    "attractive": ["feedback/haptics/steer:=attractive", "person/feeling/touch:=attractive"],
+    "flow": ["feedback/lead:=flow"],
+    "hand": ["feedback/lead:=hand"],
+    # By the hand alone: nothing is said or sounds.
+    "hand_alone": ["feedback/lead:=hand", "feedback/sounds/enabled:=false", "speech:=false"],
     # What leads by ear would only slow it down.
     "sighted": ["driver:=sighted", "feedback/sounds/enabled:=false", "feedback/haptics/enabled:=false"],
     "brief": ["feedback/cues/wording/verbosity:=brief"],

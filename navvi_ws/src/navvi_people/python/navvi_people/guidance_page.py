@@ -17,10 +17,10 @@ BATCHES = {
     "drawn": ["--seeds=92001-92005", "--people=drawn:1-20", CLOSING],
     "choices": ["--seeds=92401-92440", THREE,
                 "--conditions=default,sounds_off,touch_off,no_stop=feedback/cues/near/stop_moving:=0+feedback/cues/near/stop_standing:=0,"
-                "beacon=feedback/sounds/beacon/on:=true,brief,attractive,early_words=feedback/cues/route/turn_ahead:=10"],
+                "beacon=feedback/sounds/beacon/on:=true,brief,flow,hand,early_words=feedback/cues/route/turn_ahead:=10"],
 }
 CHOICES = """`sounds_off`: no short sounds; `touch_off`: no motors; `no_stop`: no "stop" before obstacles; `beacon`: a beacon at the next way-point
-besides, which no simulated person steers by; `brief`: brief words; `attractive`: the motors pull to the side to turn to; `early_words`:
+besides, which no simulated person steers by; `brief`: brief words; `flow`, `hand`: those ways of leading; `early_words`:
 turns are announced from 10 m on instead of 6 m."""
 
 

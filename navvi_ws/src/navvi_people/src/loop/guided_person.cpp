@@ -8,11 +8,23 @@
 
 namespace navvi_people::loop {
 
+namespace {
+
+/// The lesson has taught the way of leading of the session.
+people::SimulatedOperatorConfig taught(people::SimulatedOperatorConfig person,
+                                       const navvi_feedback::lockstep::GuideConfig& guide,
+                                       bool speech) {
+  person.lead = guide.lead(speech || guide.has_sounds());
+  return person;
+}
+
+}  // namespace
+
 GuidedPerson::GuidedPerson(const navvi_feedback::lockstep::GuideConfig& guide,
                            const people::SimulatedOperatorConfig& person, int occasion, bool speech,
                            const std::string& phrases)
     : guide_(guide, phrases),
-      person_(person, phrases, occasion),
+      person_(taught(person, guide, speech), phrases, occasion),
       speech_(speech),
       heard_(speech || guide.has_sounds()) {}
 
@@ -37,7 +49,8 @@ std::optional<navvi_types::Velocity> GuidedPerson::feed_back(const people::Stick
   if (told->voice.stop) speaks_until_ = time;
   if (told->voice.start) speaks_until_ = navvi_types::spoken_at(time, told->voice.start->size());
   std::vector<CueEvent> events = told->said;
-  if (told->felt) events.push_back(*told->felt);
+  for (const auto& lasting : {told->felt, told->flowed})
+    if (lasting) events.push_back(*lasting);
   for (const navvi_feedback::sounds::Play& play : told->plays)
     events.push_back(guide_.event_of(play));
   for (CueEvent& event : events) {

@@ -42,7 +42,9 @@ int main(int argc, char** argv) {
       phrases = ros::package::getPath("navvi_feedback") + "/config/phrases/" +
                 ros::param::param<std::string>(feedback + "/language", "en") + ".yaml";
     const int world = ros::param::param<int>(ros::names::resolve("sim_node") + "/seed", 0);
-    navvi_people::people::SimulatedOperator person(config.person, phrases, world);
+    navvi_people::people::SimulatedOperatorConfig taught = config.person;
+    ros::param::param<std::string>(feedback + "/lead", taught.lead, taught.lead);
+    navvi_people::people::SimulatedOperator person(taught, phrases, world);
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);

@@ -36,6 +36,16 @@ double Driving::shaped(double stick) const {
   return std::copysign(curved, stick);
 }
 
+double Driving::stick_for(double wanted) const {
+  if (wanted == 0.0) return 0.0;
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = 0.5 * (low + high);
+    (shaped(middle) < std::min(1.0, std::abs(wanted)) ? low : high) = middle;
+  }
+  return std::copysign(high, wanted);
+}
+
 double Driving::trembling(double stick, double dt) {
   const double keeps = std::exp(-dt / kTremor);
   tremor_ = keeps * tremor_ + std::sqrt(1.0 - keeps * keeps) * config_.noise * random_.normal();

@@ -21,19 +21,22 @@ void FeelingConfig::describe(navvi_config::Visitor& visit) {
   visit(faults, "faults", navvi_config::Any{}, "",
         "false: every pattern is recognised, and delays are all alike");
   visit(motors, "motors", navvi_config::Any{}, "", "feels the motors");
-  visit(touch, "touch", navvi_config::OneOf{{"repulsive", "attractive"}}, "",
-        "what the person was told that a motor means, as feedback/haptics/steer");
+}
+
+Felt Feeling::felt_of(const Felt& felt) const {
+  const auto of = [&](double force) {
+    return force < config_.threshold || !config_.motors ? 0.0 : force;
+  };
+  return {of(felt.left), of(felt.right)};
 }
 
 void Feeling::feel(const Felt& felt, double time) {
-  if (!config_.motors) return;
-  const auto felt_at_all = [&](double force) { return force < config_.threshold ? 0.0 : force; };
-  const Felt force{felt_at_all(felt.left), felt_at_all(felt.right)};
+  const Felt force = felt_of(felt);
   edge(force, time);
   if (force.left == last_.left && force.right == last_.right) return;
   last_ = force;
   const double late =
-      config_.faults ? random_.lognormal(config_.delay, config_.spread) : config_.delay;
+      config_.faults ? random_.lognormal(config_.onset, config_.spread) : config_.onset;
   coming_.push_back({std::max(time + late, coming_.empty() ? 0.0 : coming_.back().time), force});
 }
 
@@ -54,7 +57,10 @@ Meaning Feeling::meaning(const std::vector<Pulse>& row) const {
   const auto hard = [&](std::size_t i) { return most(row[i].force) >= kHard; };
   const std::size_t last = row.size() - 1;
   if (row.size() >= 4) return hard(0) ? Meaning::stuck : Meaning::none;
-  if (row.size() == 3) return length(2) > length(0) ? Meaning::arrived : Meaning::none;
+  const auto rises = [&](std::size_t i) {
+    return std::min(row[i].force.left, row[i].force.right) > most(row[i - 1].force);
+  };
+  if (row.size() == 3) return rises(1) && rises(2) ? Meaning::arrived : Meaning::none;
   if (row.size() == 1) {
     if (hard(0)) return length(0) > kLong ? Meaning::hit : Meaning::none;
     return Meaning::begun;
@@ -77,7 +83,7 @@ Feeling::Now Feeling::update(double time) {
     const bool known = random_.chance(config_.recognised) || !config_.faults;
     // It was felt while it came; the reaction counts from its end, not from the end of the rest.
     const double late =
-        config_.faults ? random_.lognormal(config_.delay, config_.spread) : config_.delay;
+        config_.faults ? random_.lognormal(config_.reading, config_.spread) : config_.reading;
     const Meaning what = meaning(row_);
     if (known && what != Meaning::none) meant_.emplace_back(row_.back().ends + late, what);
     row_.clear();

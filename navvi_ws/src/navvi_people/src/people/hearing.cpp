@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kTogether = 0.15;  // s, within which one sound masks another
 constexpr double kAside = 0.3;      // of both sides: more to one is from there
+constexpr double kBurst = 1.0;      // s, of noise, the mean
 
 }  // namespace
 
@@ -15,13 +16,16 @@ void HearingConfig::describe(navvi_config::Visitor& visit) {
   visit(faults, "faults", navvi_config::Any{}, "",
         "false: nothing is missed or mistaken, and reactions are all alike");
   visit(words, "words", navvi_config::Any{}, "", "hears speech");
-  visit(sounds, "sounds", navvi_config::Any{}, "", "hears short sounds");
+  visit(sounds, "sounds", navvi_config::Any{}, "", "hears sounds");
+  visit(noise, "noise", navvi_config::Range{0.0, 0.95}, "",
+        "share of sentences, short sounds and of the time of long ones that noise covers");
 }
 
 std::optional<Hearing::Sentence> Hearing::words(const std::string& text, double lasted) {
   const double rate = static_cast<double>(text.size()) / std::max(0.1, lasted);
   const double lost = std::clamp(rate / config_.fastest_speech - 1.0, 0.0, 1.0);
-  const bool missed = random_.chance(1.0 - (1.0 - config_.missed_words) * (1.0 - lost));
+  const bool missed = random_.chance(1.0 - (1.0 - config_.missed_words) * (1.0 - lost) *
+                                                (1.0 - config_.noise));
   const bool other_side = random_.chance(config_.mirrored);
   const bool other_hour = random_.chance(config_.misheard);
   const int hours = random_.chance(0.5) ? 1 : -1;
@@ -49,7 +53,8 @@ std::optional<Hearing::Tone> Hearing::sound(const Sound& sound, bool over_words,
   const bool covered = over_words || time - last_sound_ < kTogether;
   last_sound_ = time;
   const double missed =
-      1.0 - (1.0 - config_.missed_sounds) * (covered ? 1.0 - config_.masked : 1.0);
+      1.0 - (1.0 - config_.missed_sounds) * (covered ? 1.0 - config_.masked : 1.0) *
+                (1.0 - config_.noise);
   const bool lost = random_.chance(missed);
   const bool other_side = random_.chance(config_.mirrored);
   const double reaction = random_.lognormal(config_.sound_reaction, config_.sound_spread);
@@ -61,6 +66,14 @@ std::optional<Hearing::Tone> Hearing::sound(const Sound& sound, bool over_words,
               : left ? Side::left
                      : Side::right,
               config_.faults ? reaction : config_.sound_reaction};
+}
+
+bool Hearing::covered(double dt) {
+  if (!config_.sounds) return true;
+  if (config_.noise <= 0.0) return false;
+  const double begins = config_.noise / (1.0 - config_.noise);
+  covered_ = random_.chance((covered_ ? 1.0 : begins) * dt / kBurst) != covered_;
+  return covered_;
 }
 
 }  // namespace navvi_people::people

@@ -174,8 +174,10 @@ TEST(Driving, of_a_person_is_the_same_on_each_occasion_but_for_chance) {
 
 TEST(Feeling, is_as_late_as_was_measured_and_feels_nothing_without_motors_or_below_its_threshold) {
   const FeelingConfig config = person("typical").feeling;
-  EXPECT_GT(config.delay, 1.0) << "Cosgun: 1 to 2 s";
-  EXPECT_LT(config.delay, 2.0);
+  EXPECT_GT(config.reading, 1.0) << "a pattern, Cosgun: 1 to 2 s";
+  EXPECT_LT(config.reading, 2.0);
+  EXPECT_GT(config.onset, 0.25) << "a vibration, PLoS ONE 2019, 0219737: 0.25 to 0.5 s";
+  EXPECT_LT(config.onset, 0.5 + 0.13 + 0.12) << "and a second task, and its place";
   const auto felt_after = [](const FeelingConfig& skin, double force) {
     Feeling feeling(skin, 7);
     feeling.feel({force, 0.0}, 0.0);
@@ -183,7 +185,7 @@ TEST(Feeling, is_as_late_as_was_measured_and_feels_nothing_without_motors_or_bel
       if (feeling.update(0.02 * i).force.left > 0.0) return 0.02 * i;
     return 1e9;
   };
-  EXPECT_NEAR(felt_after(config, 0.8), config.delay, 0.8);
+  EXPECT_NEAR(felt_after(config, 0.8), config.onset, 0.4);
   EXPECT_EQ(felt_after(config, 0.5 * config.threshold), 1e9);
   FeelingConfig none = config;
   none.motors = false;
@@ -304,9 +306,32 @@ TEST(Types, of_drawn_people_differ_by_seed_around_the_published_means) {
   EXPECT_NEAR(over.mean, 17.4, 1.0);
   EXPECT_GT(over.deviation, 2.0);
   seed = 0;
-  const Moments delay = moments([&] { return person("drawn", ++seed).feeling.delay; });
+  const Moments delay = moments([&] { return person("drawn", ++seed).feeling.reading; });
   EXPECT_GT(delay.mean - delay.deviation, 0.9) << "Cosgun: 1 to 2 s";
   EXPECT_LT(delay.mean + delay.deviation, 2.0);
+}
+
+TEST(Types, are_worse_by_a_factor_in_all_but_what_they_like) {
+  SimulatedOperatorConfig usual = person("struggling"), worse;
+  navvi_config::read(worse, navvi_config::read_words({"type:=struggling", "worse:=1.5"}), "test");
+  EXPECT_NEAR(worse.tracking.delay, 1.5 * usual.tracking.delay, 1e-9);
+  EXPECT_NEAR(worse.feeling.recognised, 0.55, 1e-9);
+  EXPECT_NEAR(worse.hearing.fastest_speech, usual.hearing.fastest_speech / 1.5, 1e-9);
+  EXPECT_EQ(worse.driving.cruise, usual.driving.cruise);
+}
+
+TEST(Types, deafblind_and_noise_are_typical_but_for_what_is_heard) {
+  const SimulatedOperatorConfig typical = person("typical"), deafblind = person("deafblind"),
+                                noise = person("noise");
+  EXPECT_FALSE(deafblind.hearing.words || deafblind.hearing.sounds);
+  EXPECT_EQ(deafblind.feeling.onset, typical.feeling.onset);
+  EXPECT_EQ(noise.hearing.noise, 0.5);
+  Hearing hearing(noise.hearing, 3);
+  int heard = 0, covered = 0;
+  for (int i = 0; i < 2000; ++i) heard += hearing.words("go on, 9 meters", 2.0) ? 1 : 0;
+  for (int i = 0; i < 50000; ++i) covered += hearing.covered(0.02) ? 1 : 0;
+  EXPECT_NEAR(heard / 2000.0, 0.5, 0.06) << "one cue in two";
+  EXPECT_NEAR(covered / 50000.0, 0.5, 0.05);
 }
 
 TEST(Types, stand_in_the_document_as_they_are_in_the_code) {

@@ -31,16 +31,6 @@ double allowed(const std::vector<navvi_types::NearThing>& nearby, double half_la
 
 }  // namespace
 
-double SightedDriver::stick_for(double share) const {
-  if (share == 0.0) return 0.0;
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < 24; ++i) {
-    const double middle = 0.5 * (low + high);
-    (driving_.shaped(middle) < std::min(1.0, std::abs(share)) ? low : high) = middle;
-  }
-  return std::copysign(high, share);
-}
-
 StickAndButtons SightedDriver::update(const Sight& sight, double time, double dt) {
   seen_.push_back({time, sight});
   while (seen_.size() > 1 && seen_[1].time <= time - kReaction) seen_.pop_front();
@@ -53,12 +43,12 @@ StickAndButtons SightedDriver::update(const Sight& sight, double time, double dt
   const double full = driving_.shaped(config_.cruise) * config_.kFullSpeed;
   const double bend = std::max(0.0, 1.0 - std::abs(off) / kOnTheSpot);
   StickAndButtons hand;
-  hand.left = stick_for(-kSteers * off / config_.kTurnRate);
+  hand.left = driving_.stick_for(-kSteers * off / config_.kTurnRate);
   const std::vector<navvi_types::NearThing>& nearby = seen_.front().sight.nearby;
   double speed = allowed(nearby, kHalfLane, bend * full);
   if (speed > 0.0) halted_ = time;
   if (time - halted_ > kPatience) speed = std::min(kCreep, allowed(nearby, kSqueezes, bend * full));
-  hand.forward = stick_for(speed / config_.kFullSpeed);
+  hand.forward = driving_.stick_for(speed / config_.kFullSpeed);
   if (std::abs(off) > kOnTheSpot) hand.forward = 0.0;
   hand.left = driving_.trembling(hand.left, dt);
   hand.forward = driving_.trembling(hand.forward, dt);

@@ -21,7 +21,6 @@ constexpr double kNearTheEnd = 1.5;      // m to where one expects to stop
 constexpr double kListenFirst = 2.5;     // m, likewise
 constexpr double kOneSided = 0.8;        // of one motor over the other: very near at a side
 constexpr double kTicksOver = 1.2;       // s; ticks that paused for so long are over
-constexpr double kMuchForce = 0.6;       // of the motor that attracts: much is left to turn
 constexpr double kSlowTicks = 0.28;      // s, between two: much is left to turn
 constexpr double kShortly = 5.0;         // s; what is told after a turn is the rest of it
 constexpr double kBackAgain = 0.6;
@@ -29,6 +28,15 @@ constexpr double kLeansAway = 0.07;  // rad, from what is felt at a side
 constexpr double kTriesAfter = 1.0;  // s, without an answer
 constexpr double kStartled = 0.4;    // s, from a word to the hand
 constexpr double kBlindTurn = 3.0;   // m to drive after "turn now", which has no distance
+// Of a continuous sound, as the lesson teaches it.
+constexpr double kOneEar = 0.7;      // rad, of what sounds in one ear alone
+constexpr double kSlowest = 0.1;     // of both ears: turn on the spot
+constexpr double kOnTheSpot = 0.8;   // rad
+constexpr double kStillShown = 2.0;  // s; what is shown for so long after "stop" is followed again
+constexpr double kShownLately = 8.0;  // s
+// s, that speech adds to reactions: Mohebbi, Gray and Tan 2009, 16 people
+constexpr double kTalkToEar = 0.148;
+constexpr double kTalkToHand = 0.053;
 
 /// rad, clockwise, to an hour on the clock face.
 /// \param from_straight  it was 12 before: who then hears 1 or 11 knows that the edge has just been
@@ -66,8 +74,28 @@ TurningConfig practised(TurningConfig config, double factor) {
 }
 
 FeelingConfig practised(FeelingConfig config, double factor) {
-  config.delay *= factor;
+  config.onset *= factor;
+  config.reading *= factor;
   return config;
+}
+
+Lag lag_of(const SimulatedOperatorConfig& config, double factor) {
+  const TrackingConfig& ear = config.tracking;
+  const FeelingConfig& skin = config.feeling;
+  Lag lag{ear.delay, ear.speed_delay, config.hearing.sound_reaction, ear.noise, 0.0};
+  if (config.lead == "hand")
+    lag = {skin.onset, skin.reading, skin.onset, 0.0, 0.5 * (1.0 - skin.recognised)};
+  lag.steer *= factor;
+  lag.speed *= factor;
+  lag.stop *= factor;
+  return lag;
+}
+
+std::optional<Aim> aim_of(const Sound& sound) {
+  const double both = sound.left + sound.right;
+  if (both <= 0.0) return std::nullopt;
+  return Aim{kOneEar * (sound.right - sound.left) / both,
+             std::clamp((both - kSlowest) / (1.0 - kSlowest), 0.0, 1.0)};
 }
 
 }  // namespace
@@ -75,16 +103,24 @@ FeelingConfig practised(FeelingConfig config, double factor) {
 void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   const std::string type_before = type;
   const int seed_before = seed;
+  const double worse_before = worse;
   visit(seed, "seed", navvi_config::Range{0, 2147483647}, "",
         "of a drawn person's traits, and, with the world's seed, of what the person does");
   visit(type, "type", navvi_config::OneOf{person_types()}, "",
-        "sets the traits of doc/people.md; drawn: from the seed");
+        "sets the traits of doc/people.md; drawn: from the seed; deafblind and noise: typical, but "
+        "for what is heard");
+  visit(worse, "worse", navvi_config::Range{0.5, 3.0}, "",
+        "times delays, errors and misses of the type");
+  visit(lead, "lead", navvi_config::OneOf{{"words", "ticks", "flow", "hand"}}, "",
+        "the way of leading that the person was taught; a batch takes feedback/lead");
   // What is set besides is laid over the type.
-  if (type != type_before || (type == "drawn" && seed != seed_before)) become(*this, type, seed);
+  if (type != type_before || worse != worse_before || (type == "drawn" && seed != seed_before))
+    become(*this, type, seed);
   visit.group("hearing", hearing);
   visit.group("turning", turning);
   visit.group("driving", driving);
   visit.group("feeling", feeling);
+  visit.group("tracking", tracking);
   visit.group("memory", memory);
   visit.group("attention", attention);
   visit.group("learning", learning);
@@ -99,10 +135,15 @@ SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
       driving_(config.driving, stream(config, 3), stream(config, 3, occasion)),
       feeling_(practised(config.feeling, learning_.factor()), stream(config, 4, occasion)),
       memory_(config.memory, stream(config, 5, occasion)),
-      attention_(config.attention, stream(config, 6, occasion)) {}
+      attention_(config.attention, stream(config, 6, occasion)),
+      tracking_(lag_of(config, learning_.factor()), config.tracking.faults,
+                stream(config, 7, occasion)) {}
 
 void SimulatedOperator::hear(const Heard& heard, double time) {
-  if (const auto* const sound = std::get_if<Sound>(&heard))
+  const auto* const sound = std::get_if<Sound>(&heard);
+  if (sound != nullptr && sound->earcon == Earcon::flow)
+    flow_ = aim_of(*sound);
+  else if (sound != nullptr)
     ears_.sounds(*sound, attention_.elsewhere(time), time);
   else
     hear_words(std::get<Speech>(heard), time);
@@ -151,12 +192,15 @@ void SimulatedOperator::follow(const Tone& tone, double time) {
     case Earcon::arrived:
     case Earcon::beacon:
     case Earcon::unsaid:
+    case Earcon::flow:
       return;
   }
 }
 
 void SimulatedOperator::follow_tick(const Tone& tick, double time) {
   when_.news = time;
+  // Before a corner they announce the turn, and what lasts leads round it.
+  if (time - when_.shown < kShownLately) return;
   const bool same = sounds_.ticks && sounds_.ticks->side == tick.side;
   const bool slow = !same || time - sounds_.ticks->last > kSlowTicks;
   sounds_.ticks = Ticks{tick.side, time, tick.much.value_or(slow)};
@@ -186,27 +230,15 @@ StickAndButtons SimulatedOperator::turn_by_ear(double time) const {
   return hand;
 }
 
-void SimulatedOperator::feel(const Felt& felt, double time) { feeling_.feel(felt, time); }
+void SimulatedOperator::feel(const Felt& felt, double time) {
+  feeling_.feel(felt, time);
+  if (config_.lead == "hand") pulses_.feel(feeling_.felt_of(felt), time);
+}
 
 void SimulatedOperator::touch(double time) {
   const Feeling::Now now = feeling_.update(time);
-  pull_.felt = now.force;
-  if (attention_.elsewhere(time)) return;
-  if (config_.feeling.touch == "attractive") follow_pull(now.force, time);
-  follow(now.meaning, time);
-}
-
-/// Two motors are a pattern; one is the side to turn to.
-void SimulatedOperator::follow_pull(const Felt& force, double time) {
-  using Side = Instruction::Side;
-  const bool pulls = (force.left > 0.0) != (force.right > 0.0);
-  if (pulls)
-    follow_tick({Earcon::turn, force.left > 0.0 ? Side::left : Side::right, time,
-                 std::max(force.left, force.right) > kMuchForce},
-                time);
-  else if (pull_.held && force.left == 0.0)
-    stop_turn(time);
-  pull_.held = pulls;
+  if (config_.lead != "hand") felt_ = now.force;
+  if (!attention_.elsewhere(time)) follow(now.meaning, time);
 }
 
 /// Words and taps ask for it at about the same time.
@@ -218,7 +250,10 @@ void SimulatedOperator::follow(Meaning meaning, double time) {
   if (mode_ == Mode::arrived) return;
   switch (meaning) {
     case Meaning::none:
+      return;
     case Meaning::stuck:
+      // Where nothing is said, the lesson has taught to back up a little.
+      if (config_.lead == "hand" && !ears_.listen()) back_off(Instruction::Side::none, time);
       return;
     case Meaning::ready:
       // Once under way, what feels like it is something else.
@@ -233,9 +268,11 @@ void SimulatedOperator::follow(Meaning meaning, double time) {
       if (mode_ == Mode::driving)
         course_.stop_at = std::min(course_.stop_at, at_.odometer + kNearTheEnd);
       return;
+    case Meaning::hit:
+      if (config_.lead == "hand" && !ears_.listen()) return back_off(Instruction::Side::none, time);
+      [[fallthrough]];
     case Meaning::halt:
     case Meaning::stop:
-    case Meaning::hit:
       if (mode_ != Mode::backing) mode_ = Mode::waiting;
       when_.careful_until = time + kCareful;
       return;
@@ -341,9 +378,11 @@ void SimulatedOperator::follow(const Sentence& sentence, double time) {
   wait_for_go_on(sentence, !parts.empty() && parts.front().holds);
   if (!parts.empty() && parts.front().goes_on && words_.waits && sentence.begun > *words_.waits)
     words_.waits.reset();
+  // Where a display leads, its end is to stand, whatever direction is told besides.
+  const bool shown = time - when_.shown < kShownLately;
   for (const Instruction& part : parts) {
     const bool leads = part.asks == Ask::turn || part.asks == Ask::go;
-    if (!(leads && words_.waits)) follow(sentence, part, time);
+    if (!(leads && (words_.waits || shown))) follow(sentence, part, time);
   }
 }
 
@@ -409,14 +448,13 @@ StickAndButtons SimulatedOperator::drive(double time) const {
   const double slow = config_.driving.kSlow;
   double speed = time < when_.careful_until ? std::min(course_.speed, slow) : course_.speed;
   if (course_.stop_at - at_.odometer < kNearTheEnd) speed = std::min(speed, slow);
-  const bool repulsive = config_.feeling.touch == "repulsive";
-  const double both = std::min(pull_.felt.left, pull_.felt.right);
+  const double both = std::min(felt_.left, felt_.right);
   const double strong = config_.feeling.kStrong;
-  if (repulsive && both > strong)
+  if (both > strong)
     speed = std::min(speed, slow * (1.0 - 0.5 * (both - strong) / std::max(0.05, 1.0 - strong)));
   double aim = course_.target + (time < course_.veer_until ? course_.veer : 0.0);
-  const double lean = pull_.felt.left - pull_.felt.right;
-  if (repulsive && std::abs(lean) > kOneSided) aim += lean > 0.0 ? -kLeansAway : kLeansAway;
+  const double lean = felt_.left - felt_.right;
+  if (std::abs(lean) > kOneSided) aim += lean > 0.0 ? -kLeansAway : kLeansAway;
   hand.forward = speed;
   const double error = aim - at_.heading;
   if (std::abs(error) > 0.04) {
@@ -425,8 +463,39 @@ StickAndButtons SimulatedOperator::drive(double time) const {
   return hand;
 }
 
+/// By a continuous sound, or the pulses of the motors: to where they show, as fast as they show,
+/// and no faster than is liked. They are "go", too: after a word to stop one waits until they end
+/// and come again, or go on all the same.
+/// \return nullopt: neither leads
+std::optional<StickAndButtons> SimulatedOperator::follow_display(double time, double dt) {
+  const bool by_hand = config_.lead == "hand";
+  if (!by_hand && config_.lead != "flow") return std::nullopt;
+  if (by_hand)
+    tracking_.show(pulses_.update(time), time);
+  else
+    tracking_.show(ears_.noisy(dt) ? std::nullopt : flow_, time);
+  const double talk = !ears_.listen() ? 0.0 : by_hand ? kTalkToHand : kTalkToEar;
+  const std::optional<Aim> aim = tracking_.update(time, dt, talk);
+  if (!aim || mode_ == Mode::backing || mode_ == Mode::arrived) return std::nullopt;
+  mode_ = Mode::waiting;
+  when_.news = when_.shown = time;
+  if (words_.waits && *tracking_.since() < *words_.waits &&
+      time - *words_.waits < kStillShown)
+    return StickAndButtons{};
+  words_.waits.reset();
+  words_.told_to_halt = false;
+  if (attention_.elsewhere(time)) return held_;
+  const DrivingConfig& driving = config_.driving;
+  held_ = {};
+  held_.left = driving_.stick_for(-tracking_.gain() * aim->turn / driving.kTurnRate);
+  if (std::abs(aim->turn) < kOnTheSpot)
+    held_.forward = driving_.stick_for(std::min(driving_.shaped(driving.cruise), aim->speed));
+  return held_;
+}
+
 StickAndButtons SimulatedOperator::act(double time, double dt) {
   StickAndButtons hand;
+  if (const auto led = follow_display(time, dt)) return *led;
   if (sounds_.ticks && time - sounds_.ticks->last > kTicksOver) sounds_.ticks.reset();
   if (words_.waits && mode_ != Mode::backing && mode_ != Mode::arrived) {
     mode_ = Mode::waiting;
@@ -456,7 +525,7 @@ StickAndButtons SimulatedOperator::act(double time, double dt) {
     }
   }
   if (mode_ == Mode::waiting && !words_.spoken_to && !words_.told_to_halt &&
-      time - when_.asked > kTriesAfter && when_.asked > when_.start)
+      when_.shown < when_.start && time - when_.asked > kTriesAfter && when_.asked > when_.start)
     go_ahead();
   if (mode_ == Mode::backing) {
     hand.forward = -1.0;

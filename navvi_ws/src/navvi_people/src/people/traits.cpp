@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+#include <set>
 #include <sstream>
 
 namespace navvi_people::people {
@@ -19,6 +19,16 @@ constexpr const char* kRotationPeople = "11 blind people, 26 turns each";
 constexpr const char* kTurningBody =
     "of a walking body turning on the spot; taken for a robot "
     "turned by a stick, which is assumed";
+
+/// Delays, errors and misses grow; what is liked, borne and learnt does not.
+double worsened(const Trait& trait, double value, double worse) {
+  static const std::set<std::string> liked = {"driving/cruise", "attention/gives_up",
+                                              "learning/rate"};
+  const std::string name = trait.name;
+  if (liked.count(name) > 0) return value;
+  if (name == "feeling/recognised") return std::max(0.0, 1.0 - worse * (1.0 - value));
+  return name == "hearing/fastest_speech" ? value / worse : value * worse;
+}
 
 }  // namespace
 
@@ -74,7 +84,7 @@ const std::vector<Trait>& traits() {
        2.0, 0.3, "deg", kAssumed, kNobody, "likewise"},
       {"feeling/threshold", [](Config& c) -> double& { return c.feeling.threshold; }, 0.05, 0.08,
        0.2, 0.3, "", kAssumed, kNobody, "-"},
-      {"feeling/delay", [](Config& c) -> double& { return c.feeling.delay; }, 0.4, 1.2, 1.8, 0.2,
+      {"feeling/reading", [](Config& c) -> double& { return c.feeling.reading; }, 1.0, 1.5, 2.0, 0.2,
        "s", "Cosgun et al., tactile belt", "15 people",
        "1 to 2 s to a pattern at the waist; taken for a pad in the hands, which is assumed"},
       {"feeling/spread", [](Config& c) -> double& { return c.feeling.spread; }, 0.15, 0.2, 0.3, 0.2,
@@ -95,12 +105,25 @@ const std::vector<Trait>& traits() {
        "", kAssumed, kNobody,
        "that a fourth traversal is 45 and 57 s quicker: Ohn-Bar et al. (IUI'18), 8 people, "
        "walking"},
+      {"feeling/onset", [](Config& c) -> double& { return c.feeling.onset; }, 0.45, 0.65, 0.95, 0.2,
+       "s", "PLoS ONE 2019, 0219737", "10 young and 13 old people",
+       "0.25 to 0.5 s to a vibration, a second task adds 0.13 s, its place 0.02 to 0.12 s; somewhat "
+       "slower is assumed"},
+      {"tracking/delay", [](Config& c) -> double& { return c.tracking.delay; }, 0.3, 0.5, 0.8, 0.2,
+       "s", kAssumed, kNobody,
+       "form (delay, gain by it, remnant): McRuer and Jex 1967, Levison et al. 1969, by eye; their "
+       "trained people have 0.2 to 0.4 s"},
+      {"tracking/speed_delay", [](Config& c) -> double& { return c.tracking.speed_delay; }, 0.45,
+       0.7, 1.0, 0.2, "s", kAssumed, kNobody, "likewise"},
+      {"tracking/noise", [](Config& c) -> double& { return c.tracking.noise; }, 0.15, 0.25, 0.35,
+       0.2, "", kAssumed, kNobody, "likewise"},
   };
   return all;
 }
 
 const std::vector<std::string>& person_types() {
-  static const std::vector<std::string> all = {"able", "typical", "struggling", "drawn"};
+  static const std::vector<std::string> all = {"able",  "typical",   "struggling",
+                                               "drawn", "deafblind", "noise"};
   return all;
 }
 
@@ -110,13 +133,14 @@ void become(SimulatedOperatorConfig& config, const std::string& type, int seed) 
     double value = trait.typical;
     if (type == "able") value = trait.able;
     if (type == "struggling") value = trait.struggling;
-    if (type == "drawn") {
-      value = random.lognormal(trait.typical, trait.between);
-      // A share, a stick, a force.
-      if (std::string(trait.unit).empty()) value = std::min(value, 1.0);
-    }
+    if (type == "drawn") value = random.lognormal(trait.typical, trait.between);
+    value = worsened(trait, value, config.worse);
+    // A share, a stick, a force.
+    if (std::string(trait.unit).empty()) value = std::min(value, 1.0);
     trait.of(config) = value;
   }
+  config.hearing.words = config.hearing.sounds = type != "deafblind";
+  config.hearing.noise = type == "noise" ? 0.5 : 0.0;
 }
 
 std::string traits_table() {

@@ -41,7 +41,7 @@ STOPS = {
 WAITING = {TrialState.PREPARING: "The trial is being prepared", TrialState.CHOOSE_GOAL: "The trial waits for a goal",
            TrialState.READY: "The trial waits until its person presses start"}
 SENSES = {Cue.SPEECH: "Said", Cue.RUMBLE: "Felt"}
-NEARNESS = "rumble"  # what is felt of near things all the time
+LASTING = ("rumble", "flow")  # what is felt of near things, and what leads, all the time
 
 
 def plain(word):
@@ -103,7 +103,7 @@ class Teller:
                                   f" at {hour_of(message.waypoint_angle)} o'clock")
 
     def cue(self, message, _):
-        if message.stage != Cue.STARTED or (message.modality == Cue.RUMBLE and message.kind == NEARNESS):
+        if message.stage != Cue.STARTED or message.kind in LASTING:
             return
         sense = SENSES.get(message.modality, "Played")
         safety = message.priority == Cue.IMPORTANT

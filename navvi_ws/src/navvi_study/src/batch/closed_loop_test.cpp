@@ -267,10 +267,8 @@ TEST_F(ClosedLoopIn, everyCombinationOfChannelsRunsAndOfOneThatIsOffNothingIsPla
     const bool sounds = (channels & 2) != 0;
     navvi_config::read(config_.feedback,
                        navvi_config::read_words({"sounds/enabled:=" + shown(sounds),
-                                                 "haptics/enabled:=" + shown((channels & 4) != 0),
-                                                 "haptics/steer:=attractive"}),
+                                                 "haptics/enabled:=" + shown((channels & 4) != 0)}),
                        "the test");
-    config_.person.feeling.touch = "attractive";
     ClosedLoop loop(config_, phrases_);
     Played played;
     while (loop.time() < 20.0) {

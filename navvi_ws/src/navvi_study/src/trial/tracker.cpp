@@ -30,7 +30,7 @@ void Tracker::observe(const navvi_types::CueEvent& cue) {
   if (cue.stage != navvi_types::CueStage::started) return;
   if (cue.modality() == navvi_types::Modality::rumble)
     motors_.add({cue.stamp, cue.left, cue.right});
-  else
+  else if (!cue.lasts())
     begun_.add({cue.stamp, cue.modality(), cue.word()});
 }
 

@@ -361,10 +361,8 @@ std::optional<Event> TrialMonitor::row_of(const CueEvent& cue) {
   if (cue.modality() != Modality::speech) {
     // What is played or felt is reported at each change of strength; a row is for a new kind.
     const std::string before = std::exchange(playing_[cue.modality()], begins ? cue.word() : "");
-    if (begins && cue.modality() == Modality::sound) ++tally_.sounds_played;
-    const auto* const felt = std::get_if<navvi_types::Felt>(&cue.what);
-    const bool nearness = felt != nullptr && !felt->pattern;
-    if (!begins || cue.word() == before || nearness) return std::nullopt;
+    if (begins && cue.modality() == Modality::sound && !cue.lasts()) ++tally_.sounds_played;
+    if (!begins || cue.word() == before || cue.lasts()) return std::nullopt;
     if (cue.modality() == Modality::rumble) ++tally_.patterns_felt;
   }
   record::Fields fields = place();

@@ -54,6 +54,12 @@ struct CueEvent {
   }
   /// In messages and records: the kind, a lesson's key, the pattern or "rumble", or the sound.
   [[nodiscard]] std::string word() const;
+  /// It tells how what lasts has changed, and begins nothing.
+  [[nodiscard]] bool lasts() const {
+    const auto* const felt = std::get_if<Felt>(&what);
+    const auto* const earcon = std::get_if<Earcon>(&what);
+    return (felt != nullptr && !felt->pattern) || (earcon != nullptr && *earcon == Earcon::flow);
+  }
 };
 
 /// The inverse of CueEvent::word(). \return nullopt for a word that no pattern or sound has

@@ -15,6 +15,7 @@ enum class Pattern : std::uint8_t {
   rerouted,      ///< a light tap on the left, then on the right
   arrived,       ///< three pulses that rise
   no_sound,      ///< three soft pulses: what the voice cannot say
+  answer,        ///< a long pulse on the side of the goal, then a tap for each 5 m to it
   stuck,         ///< four quick taps
   halt,          ///< a short and a long pulse: the word is to stop, or to wait
   stopped,       ///< two long pulses: the robot was stopped
@@ -22,9 +23,9 @@ enum class Pattern : std::uint8_t {
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 11> names(Pattern) {
+[[nodiscard]] constexpr std::array<const char*, 12> names(Pattern) {
   return {"sample", "ready", "begun",   "rerouted",     "arrived",  "no_sound",
-          "stuck",  "halt",  "stopped", "hit_obstacle", "hit_shelf"};
+          "answer", "stuck",  "halt",  "stopped", "hit_obstacle", "hit_shelf"};
 }
 
 /// Short sounds, each recognisably its own.
@@ -48,9 +49,10 @@ enum class Earcon : std::uint8_t {
   beacon,      ///< from the next way-point; the faster, the nearer
   turn_click,  ///< as turn, while words are spoken: short, and above them
   unsaid,      ///< instead of words: the voice was lost twice over them
+  flow,        ///< all the time, not short: to where to steer, and how fast
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 19> names(Earcon) {
+[[nodiscard]] constexpr std::array<const char*, 20> names(Earcon) {
   return {"turn",
           "turn_stop",
           "on_course",
@@ -69,7 +71,8 @@ enum class Earcon : std::uint8_t {
           "arrived",
           "beacon",
           "turn_click",
-          "unsaid"};
+          "unsaid",
+          "flow"};
 }
 
 }  // namespace navvi_types

@@ -24,6 +24,10 @@ struct Output {
   bool rumble_due = false;                    ///< other drivers are to be sent it
   bool rumble_moved = false;                  ///< and it has changed
   std::optional<navvi_types::CueEvent> felt;  ///< worth a row of the record
+  haptics::Rumble flow;  ///< shares of both ears of the sound that lasts, as lead::flow_of()
+  double flow_gain = 0.0;  ///< [0, 1]
+  std::optional<navvi_types::CueEvent> flowed;  ///< worth a row of the record
+
   bool alarm_begins = false;                  ///< the motors begin to report that there is no sound
 
   cues::VoiceOrder voice;

@@ -36,6 +36,8 @@ class GuideConfig {
   void describe(navvi_config::Visitor& visit);
   /// Short sounds are played.
   [[nodiscard]] bool has_sounds() const;
+  /// The way of leading. \param audible  there is something to hear
+  [[nodiscard]] std::string lead(bool audible) const;
 
   /// Known to this package alone.
   struct Values;

@@ -34,6 +34,8 @@ class Driving {
 
   /// What the robot makes of a stick, as believed, [-1, 1].
   [[nodiscard]] double shaped(double stick) const;
+  /// The stick for what the robot is to make of it, as believed, both [-1, 1].
+  [[nodiscard]] double stick_for(double shaped) const;
   [[nodiscard]] double turn_gain() const { return turn_gain_; }
   [[nodiscard]] double speed_gain() const { return speed_gain_; }
   /// The stick that the hand truly holds. \param dt  s since the last

@@ -53,6 +53,9 @@ class Ears {
   /// \param elsewhere  as above
   void sounds(const Sound& sound, bool elsewhere, double time);
 
+  /// As Hearing::covered().
+  [[nodiscard]] bool noisy(double dt) { return hearing_.covered(dt); }
+
   /// Sentences that are being spoken, by the id of their cue.
   [[nodiscard]] const std::map<std::uint32_t, Sentence>& begun() const { return begun_; }
   /// Of these, those whose end should have come.

@@ -18,10 +18,10 @@ using navvi_types::Random;
 struct FeelingConfig {
   bool faults = true;
   bool motors = true;
-  std::string touch = "repulsive";
   double threshold = 0.05;                ///< weaker motors are not felt
-  double delay = 0.4;                     ///< s, from a motor to the hand, the median
-  double spread = 0.15;                   ///< standard deviation of its logarithm
+  double onset = 0.45;                    ///< s, from a motor to the hand, the median
+  double reading = 1.0;                   ///< s, from the end of a pattern to the hand, the median
+  double spread = 0.15;                   ///< standard deviation of their logarithms
   double recognised = 0.98;               ///< share of patterns
   static constexpr double kStrong = 0.6;  ///< motors above this on both sides slow the hand
 
@@ -38,6 +38,8 @@ class Feeling {
   Feeling(const FeelingConfig& config, std::uint64_t seed) : config_(config), random_(seed) {}
 
   void feel(const Felt& felt, double time);
+  /// Of it, what is strong enough to be felt at all.
+  [[nodiscard]] Felt felt_of(const Felt& felt) const;
   /// What is felt of it now: forces from some time ago, and what a row of pulses has just meant.
   struct Now {
     Felt force;

@@ -19,6 +19,7 @@ struct HearingConfig {
   bool faults = true;
   bool words = true;
   bool sounds = true;
+  double noise = 0.0;           ///< share of all that is played which noise covers
   double word_reaction = 0.65;  ///< s, from the end of a sentence to the hand, the median
   double word_spread = 0.2;     ///< standard deviation of its logarithm, from sentence to sentence
   double sound_reaction = 0.3;  ///< s, from the onset of a short sound to the hand, the median
@@ -55,11 +56,14 @@ class Hearing {
   };
   /// \param over_words  something is spoken \return nullopt: missed
   [[nodiscard]] std::optional<Tone> sound(const Sound& sound, bool over_words, double time);
+  /// A sound that lasts is covered now: by bursts of a second on the mean. \param dt  s
+  [[nodiscard]] bool covered(double dt);
 
  private:
   HearingConfig config_;
   Random random_;
   double last_sound_ = -1e9;  ///< s
+  bool covered_ = false;
 };
 
 }  // namespace navvi_people::people

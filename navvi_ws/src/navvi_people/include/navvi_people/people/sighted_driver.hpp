@@ -35,9 +35,6 @@ class SightedDriver {
     double time = 0.0;  ///< s
     Sight sight;
   };
-  /// The stick for a share of the full speed or turn rate.
-  [[nodiscard]] double stick_for(double share) const;
-
   DrivingConfig config_;
   Driving driving_;
   std::deque<Seen> seen_;

@@ -13,6 +13,8 @@
 #include "navvi_people/people/hearing.hpp"
 #include "navvi_people/people/instruction.hpp"
 #include "navvi_people/people/mind.hpp"
+#include "navvi_people/people/pulses.hpp"
+#include "navvi_people/people/tracking.hpp"
 #include "navvi_people/people/turning.hpp"
 
 namespace navvi_people::people {
@@ -21,7 +23,10 @@ namespace navvi_people::people {
 struct SimulatedOperatorConfig {
   int seed = 1;
   std::string type = "able";
+  std::string lead = "ticks";  ///< the way of leading that the person was taught
+  double worse = 1.0;
   HearingConfig hearing;
+  TrackingConfig tracking;
   TurningConfig turning;
   DrivingConfig driving;
   FeelingConfig feeling;
@@ -104,13 +109,10 @@ class SimulatedOperator {
     double start = 0.0;
     double news = 0.0;  ///< the last
     double asked = -1e9;
+    double shown = -1e9;  ///< what leads all the time, last
     double pressed = -1e9;  ///< start
     double bumped = -1e9;
     double careful_until = 0.0;
-  };
-  struct Pull {
-    Felt felt;
-    bool held = false;  ///< by one motor
   };
   /// The last turn by words.
   struct Turned {
@@ -120,7 +122,6 @@ class SimulatedOperator {
 
   void hear_words(const Speech& speech, double time);
   void touch(double time);
-  void follow_pull(const Felt& force, double time);
   void follow(Meaning meaning, double time);
   void follow(const Tone& tone, double time);
   void follow_tick(const Tone& tick, double time);
@@ -134,6 +135,7 @@ class SimulatedOperator {
   void expect_turn(const Sentence& sentence, const Instruction& turn);
   void veer(Instruction::Side side, double angle, double until);
   [[nodiscard]] StickAndButtons act(double time, double dt);
+  [[nodiscard]] std::optional<StickAndButtons> follow_display(double time, double dt);
   [[nodiscard]] StickAndButtons drive(double time) const;
   void shy_away(const Instruction& instruction, double time);
   void be_startled(double time);
@@ -161,8 +163,12 @@ class SimulatedOperator {
   Course course_;
   Backing backing_;
   Moments when_;
-  Pull pull_;
+  Felt felt_;  ///< now
   Turned turned_;
+  Tracking tracking_;  ///< of what is shown all the time
+  Pulses pulses_;
+  std::optional<Aim> flow_;  ///< that sounds
+  StickAndButtons held_;  ///< by that, last
 };
 
 }  // namespace navvi_people::people

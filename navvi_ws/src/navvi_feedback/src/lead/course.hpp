@@ -1,0 +1,37 @@
+#pragma once
+
+#include <navvi_types/thing.hpp>
+#include <optional>
+#include <vector>
+
+namespace navvi_feedback::lead {
+
+using navvi_types::NearThing;
+
+/// What a person who drives is to do now: what a continuous display shows them.
+struct Course {
+  double turn = 0.0;   ///< rad, clockwise, from the nose to where to steer
+  double speed = 0.0;  ///< share of the full speed, [0, 1]; 0: turn on the spot
+};
+
+/// Says how fast the way ahead may be driven: slower into a turn, and towards what stands or moves
+/// ahead; nothing where the robot is to stand. Past what waits beside the lane it creeps.
+class Pilot {
+ public:
+  /// Call it at 50 Hz.
+  /// \param off  rad, clockwise, from the nose to where to steer; nullopt: nowhere
+  /// \param speed  m/s, of the robot
+  /// \param full  m/s, at full stick
+  /// \param time  s, of a clock that does not run backwards
+  [[nodiscard]] std::optional<Course> update(std::optional<double> off,
+                                             const std::vector<NearThing>& nearby, double speed,
+                                             double full, double time);
+
+ private:
+  double went_ = 0.0;  ///< s, when the way was last free to drive, or there was none
+};
+
+/// rad; more is turned on the spot.
+constexpr double kOnTheSpot = 0.8;
+
+}  // namespace navvi_feedback::lead

@@ -1,0 +1,52 @@
+#include "lead/course.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace navvi_feedback::lead {
+namespace {
+
+constexpr double kFull = 0.9;  // m/s
+
+std::optional<Course> shown(std::optional<double> off, const std::vector<NearThing>& nearby = {},
+                            double speed = 0.0) {
+  Pilot pilot;
+  (void)pilot.update(off, {}, speed, kFull, 9.9);
+  return pilot.update(off, nearby, speed, kFull, 10.0);
+}
+
+NearThing thing(double gap, double x, double y, bool moving) {
+  return {navvi_types::ThingClass::forklift, 1, gap, {x, y}, moving};
+}
+
+TEST(Pilot, shows_full_speed_straight_on_less_in_a_bend_and_none_to_turn_on_the_spot) {
+  EXPECT_DOUBLE_EQ(shown(0.0).value().speed, 1.0);
+  EXPECT_NEAR(shown(kOnTheSpot / 2.0).value().speed, 0.5, 1e-9);
+  EXPECT_DOUBLE_EQ(shown(-1.0).value().speed, 0.0);
+  EXPECT_DOUBLE_EQ(shown(-1.0).value().turn, -1.0);
+  EXPECT_FALSE(shown(std::nullopt));
+}
+
+TEST(Pilot, slows_down_before_what_is_ahead_and_stands_before_what_moves) {
+  EXPECT_NEAR(shown(0.0, {thing(0.7, 1.0, 0.0, false)}).value().speed, 0.45 / kFull, 1e-9);
+  EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.7, 1.0, 0.8, false)}).value().speed, 1.0) << "beside";
+  EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.7, -1.0, 0.0, true)}).value().speed, 1.0) << "behind";
+  EXPECT_FALSE(shown(0.0, {thing(0.5, 0.9, 0.0, true)}));
+  EXPECT_FALSE(shown(0.0, {thing(1.0, 1.4, 0.0, true)}, 0.8)) << "a person takes time to stop";
+  EXPECT_TRUE(shown(0.5, {thing(0.5, 0.9, 0.0, true)})) << "there is something to turn";
+}
+
+TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
+  Pilot pilot;
+  const std::vector<NearThing> waits = {thing(0.3, 0.5, 0.5, true)};
+  (void)pilot.update(0.0, {}, 0.0, kFull, 9.9);
+  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, 11.0));
+  const auto course = pilot.update(0.0, waits, 0.0, kFull, 12.5);
+  ASSERT_TRUE(course);
+  EXPECT_GT(course->speed, 0.0);
+  EXPECT_LT(course->speed, 0.2);
+}
+
+}  // namespace
+}  // namespace navvi_feedback::lead
