@@ -13,16 +13,16 @@ from .say import Failure, aside, fail
 
 
 def answer(path, *words):
-    """Runs a program with --json: how it ended with what it told people, and what it told programs (None if nothing)."""
+    """Runs a program that prints JSON: how it ended, and what it printed (None if nothing)."""
     hint = threading.Timer(3.0, aside, ["still at work; a large world takes minutes."])
     hint.start()
-    with tempfile.NamedTemporaryFile(suffix=".json") as file:
-        try:
-            done = subprocess.run([str(path), *map(str, words), "--json", file.name], text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        finally:
-            hint.cancel()
-        text = file.read()
-    return done, json.loads(text.decode(errors="replace")) if text else None
+    try:
+        done = subprocess.run([str(path), *map(str, words)], text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    finally:
+        hint.cancel()
+    if done.returncode < 0:
+        fail(f"{path.name} broke off by signal {-done.returncode}; such an error is worth a report.", 1)
+    return done, json.loads(done.stdout) if done.stdout else None
 
 
 def names():
@@ -39,42 +39,62 @@ def check_name(world):
         fail(f"no world and no file has the name \"{world}\"; allowed are: {' '.join(known)}, or a .yaml, .sdf or .world file.", 2)
 
 
+def picture(word):
+    """The argument type of a picture's file."""
+    if Path(word).suffix not in (".svg", ".png"):
+        fail(f"\"{word}\" is not a picture; .svg and .png are allowed.", 2)
+    return Path(word)
+
+
 def table(header, rows):
     """Prints rows as CSV, lists with commas between numbers and blanks between points."""
     writer = csv.writer(sys.stdout, lineterminator="\n")
     writer.writerow(header)
     for name, value in rows:
         nested = isinstance(value, list) and value and isinstance(value[0], list)
-        writer.writerow([name, points(value) if nested else ",".join(map(str, value)) if isinstance(value, list) else value])
+        writer.writerow([name, points(value) if nested else numbers(value) if isinstance(value, list) else value])
+
+
+def numbers(values):
+    return ",".join(map(str, values))
 
 
 def points(path):
     """Such as "1.5,2 3,-4", m."""
-    return " ".join(",".join(map(str, point)) for point in path)
+    return " ".join(map(numbers, path))
 
 
 class Verdict:
-    """A world as the simulator describes it (`sentences` for people, `world` for programs) and the way from start to goal, `way`;
-    where there is none, `refusal` tells why."""
+    """A world as the simulator describes it, `world`, and the way from start to goal, `way`; where there is none, `refusal` tells why."""
 
-    def __init__(self, name, words=(), nav_words=(), profile="default", octomap=None):
+    def __init__(self, name, words=(), nav_words=(), profile="default", octomap=None, drawing=False):
         with tempfile.TemporaryDirectory() as folder:
             octomap = octomap or Path(folder) / "world.bt"
-            checked, self.world = answer(program("navvi_sim", "world_tool"), "check", name, *words, "-o", octomap)
+            drawn = ["drawing:=true"] if drawing else []
+            checked, self.world = answer(program("navvi_sim", "world_tool"), "check", name, *words, f"save:={octomap}", *drawn)
             sys.stderr.write(checked.stderr)
             if checked.returncode:
                 raise Failure(None, 2)
-            self.sentences = checked.stdout
-            self.start, self.goal = (",".join(map(str, self.world[end][:2])) for end in ("start x m, y m, yaw rad", "goal x m, y m"))
+            start, goal = self.world["start x m, y m, yaw rad"][:2], self.world["goal x m, y m"]
             level = {"mesh/climb": 0, "mesh/floor_height": self.world["floor z m"]}
             given = [word.partition(":=")[0] for word in nav_words]
-            planned, self.way = answer(program("navvi_nav", "navmesh_tool"), octomap, "--config", config_of("navvi_nav", profile),
-                                       *(f"{name}:={value}" for name, value in level.items() if name not in given), *nav_words,
-                                       "--from", self.start, "--to", self.goal)
+            planned, self.way = answer(program("navvi_nav", "navmesh_tool"), octomap, f"config:={config_of('navvi_nav', profile)}",
+                                       *(f"{name}:={value}" for name, value in level.items() if name not in given), *nav_words, f"from:={start}", f"to:={goal}")
         self.refusal = ""
         if planned.returncode:
             why = (self.way or {}).get("refusal") or planned.stderr.strip()
-            self.refusal = f"no session from {self.start} to {self.goal}: {why}"
+            self.refusal = f"no session from {numbers(start)} to {numbers(goal)}: {why}"
+
+    def caption(self):
+        world = self.world
+        return f"seed {world['seed']}, world {world['world hash']}" + (f"; {world['scenario']}" if world["scenario"] else "")
+
+    def sentences(self):
+        """What is in the world, for a person."""
+        world = self.world
+        ends = [",".join(f"{value:.3f}" for value in world[end]) for end in ("start x m, y m, yaw rad", "goal x m, y m")]
+        return [*world["notes"], *(f"{number} {what}" for what, number in world["counts"].items()), f"{world['world']}, {self.caption()}",
+                f"floor at z = {world['floor z m']:.3f} m", f"start {ends[0]} goal {ends[1]}"]
 
     def require(self):
         if self.refusal:

@@ -11,7 +11,7 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from navvi_cli import arguments, network, parser, pictures, session, trials, worlds  # noqa: E402
+from navvi_cli import arguments, network, parser, session, trials, worlds  # noqa: E402
 from navvi_cli.commands import replay, run  # noqa: E402
 from navvi_cli.main import command_names, parser_of  # noqa: E402
 from navvi_cli.say import Failure  # noqa: E402
@@ -24,20 +24,11 @@ def refusal(work):
     return found.value.sentence
 
 
-# --- pictures and programs
-
-def test_a_picture_that_cannot_be_drawn_names_the_cause(tmp_path):
-    def halve(*words):
-        pathlib.Path(words[-1]).write_text("<svg")
-        return 0
-
-    sentence = refusal(lambda: pictures.draw(tmp_path / "a.png", halve))
-    assert "a.png\" cannot be drawn: " in sentence and "XML" in sentence and ".svg" in sentence
-
+# --- programs
 
 def test_a_program_that_works_for_long_is_said_to_be_at_work(monkeypatch, tmp_path):
     said, program = [], tmp_path / "program"
-    program.write_text("#!/bin/sh\nread line < " + str(tmp_path / "pipe"))
+    program.write_text(f"#!/bin/sh\nread line < {tmp_path / 'pipe'}\necho '{{\"a\": 1}}'")
     program.chmod(0o755)
     os.mkfifo(tmp_path / "pipe")
 
@@ -46,7 +37,7 @@ def test_a_program_that_works_for_long_is_said_to_be_at_work(monkeypatch, tmp_pa
         (tmp_path / "pipe").write_text("end\n")
 
     monkeypatch.setattr(worlds, "aside", hear)
-    assert worlds.answer(program)[0].returncode == 0 and said == ["still at work; a large world takes minutes."]
+    assert worlds.answer(program)[1] == {"a": 1} and said == ["still at work; a large world takes minutes."]
 
 
 # --- arguments

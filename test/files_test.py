@@ -66,7 +66,7 @@ def person(file):
 KINDS = {
     "plan": (".yaml", plan), "consent": (".yaml", planned("CONSENT")), "world of a plan": (".sdf", planned("WORLD")),
     "layout": (".yaml", program("navvi_sim", "world_tool", "check")), "sdf": (".sdf", program("navvi_sim", "world_tool", "check")),
-    "config": (".yaml", program("navvi_sim", "world_tool", "check", "easy", "--config")),
+    "config": (".yaml", lambda file: ([LIB / "navvi_sim/world_tool", "check", "easy", f"config:={file}"], {})),
     "classes": (".yaml", lambda file: ([LIB / "navvi_sim/world_tool", "check", ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world", f"classes:={file}"], {})),
     **{f"mesh {end}": (end, mesh) for end in (".dae", ".stl", ".obj")},
     **{f"map {end}": (end, program("navvi_nav", "navmesh_tool")) for end in (".bt", ".ot", ".yaml")}, "picture of a map": (".pgm", picture),

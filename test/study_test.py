@@ -918,12 +918,8 @@ def test_a_report_is_read_without_eyes_and_without_a_network(reported):
     assert "./navvi study report small.yaml --only time" in page.text and str(kept.folder.parent) not in text, "no folder of the researcher"
 
 
-def test_ways_lie_over_the_map_where_they_were_driven():
+def test_a_way_is_as_long_as_its_legs():
     from navvi_study import ways
-    picture = '<svg data-area="-5 -2 15 8"><clipPath id="map"><rect x="10" y="20" width="200" height="100"/></clipPath></svg>'
-    drawn = ways.over_map(picture, [("b", [(-5.0, 8.0), (15.0, -2.0), (5.0, 3.0)])], ["a", "b"], ["#111111", "#222222"])
-    assert 'points="10.0,20.0 210.0,120.0 110.0,70.0" fill="none" stroke="#222222"' in drawn and 'stroke-dasharray="9 4"' in drawn
-    assert ways.over_map("<svg></svg>", [], [], []) is None
     assert ways.length([(0.0, 0.0), (3.0, 4.0), (3.0, 5.0)]) == 6.0
 
 
@@ -937,12 +933,14 @@ def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
         cue = "t,9,12000000000,1001000000000,CUE,id=1;modality=speech;kind=turn;text=turn left,00000000\n"
         (folder / "journal.csv").write_text("".join([*lines[:2], cue, *lines[2:]]))
     asked = []
-    text = report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: asked.append(world))
+    text = report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: asked.append(world) or b"")
     page = Page(text)
     assert "Cues a minute" in page.text and "The map of this world could not be drawn." in page.text
     assert any("3 sentences, 0 sounds and 0 felt patterns a minute" in part.get("alt", "") for _, part in page.parts)
-    assert asked == [("n/a", "n/a")]
-    assert report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: None) == text
+    (world, seed, [(colour, dashes, way), *_]), = asked
+    assert (world, seed, colour, dashes) == ("n/a", "n/a", "#0072b2", "solid") and len(way) > 1
+    shown = report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: b"<svg")
+    assert "The map of this world could not be drawn." not in Page(shown).text and "data:image/svg+xml;base64,PHN2Zw==" in shown
 
 
 def test_a_contrast_has_one_sign_in_all_of_a_report(reported):

@@ -112,7 +112,7 @@ def check_by_programs(words):
     if words.get("places"):
         accepted("feedback", FEEDBACK, [f"places:={words['places']}"])
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
-    Verdict(words["world"], ["--config", config_of("navvi_sim", words["profile"]), *session, *words.parameters_of("sim")],
+    Verdict(words["world"], [f"config:={config_of('navvi_sim', words['profile'])}", *session, *words.parameters_of("sim")],
             words.parameters_of("nav"), words["profile"]).require()
 
 

@@ -10,7 +10,7 @@ import sys
 
 from navvi_cli import places
 from navvi_cli.parser import add_actions
-from navvi_cli.say import fail
+from navvi_cli.say import Failure, fail
 
 sys.path.insert(0, str(places.share("navvi_study") / "python"))
 
@@ -35,6 +35,17 @@ def _tool(package, name):
     return path
 
 
+def _draw(world, words, path, driven=()):
+    """Draws a world from above. \\param driven  see maps.world"""
+    from navvi_cli import maps
+    from navvi_cli.commands.world import verdict_on
+    try:
+        found = verdict_on(world, words, drawing=True)
+        maps.save(maps.world(found.world, found.caption(), None if found.refusal else found.way, driven), path)
+    except Failure as problem:
+        raise StudyError(problem.sentence or f"{world} cannot be drawn.") from None
+
+
 def _guarded(action):
     """The action, with the product's programs, and its errors as the command prints them."""
     class Guarded(action):
@@ -47,7 +58,7 @@ def _guarded(action):
             if places.WORKSPACE and action.__name__ in ("Report", "Rehearse"):
                 shell("install_packages", "report")
             os.umask(0o077)  # what a study holds is its owner's alone
-            TOOLS.update(tool=_tool, version=version, navvi=places.ROOT / "navvi")
+            TOOLS.update(tool=_tool, version=version, navvi=places.ROOT / "navvi", draw=_draw)
             try:
                 return action.run(args)
             except StudyError as problem:

@@ -7,14 +7,13 @@ Exit codes
 0: done. 2: the world is rejected, or no way leads from start to goal, and
 why; or a wrong argument.
 """
+from pathlib import Path
+
 from navvi_cli.arguments import parameter
 from navvi_cli.parser import add_actions
-from navvi_cli.pictures import draw, picture
-from navvi_cli.say import say
-from navvi_cli.workspace import show, tool
-from navvi_cli.worlds import Verdict, names, points, table
-
-WORLD_TOOL = "navvi_sim", "world_tool"
+from navvi_cli.say import fail, say
+from navvi_cli.workspace import tool
+from navvi_cli.worlds import Verdict, names, picture, table
 
 
 def arguments(parser):
@@ -28,13 +27,19 @@ def world_arguments(parser):
     parser.add_argument("words", nargs="*", default=[], metavar="name:=value", help="parameters, such as seed:=3.", type=parameter)
 
 
-def words_of(args):
-    return [*args.words, *(["--config", args.config] if args.config else [])]
+def octomap(word):
+    if Path(word).suffix not in (".bt", ".ot"):
+        fail(f"\"{word}\" is not an OctoMap; .bt and .ot are allowed.", 2)
+    return word
 
 
-def verdict(args, octomap=None):
-    tool(*WORLD_TOOL), tool("navvi_nav", "navmesh_tool")
-    return Verdict(args.world, words_of(args), octomap=octomap)
+def verdict_on(world, words, **more):
+    tool("navvi_sim", "world_tool"), tool("navvi_nav", "navmesh_tool")
+    return Verdict(world, words, **more)
+
+
+def verdict(args, **more):
+    return verdict_on(args.world, [*args.words, *([f"config:={args.config}"] if args.config else [])], **more)
 
 
 class List:
@@ -44,7 +49,7 @@ class List:
         parser.add_argument("--csv", action="store_true", help="as a table for a program.")
 
     def run(args):
-        tool(*WORLD_TOOL)
+        tool("navvi_sim", "world_tool")
         if args.csv:
             table(["name", "meaning"], names().items())
         else:
@@ -57,16 +62,17 @@ class Check:
     def arguments(parser):
         world_arguments(parser)
         parser.add_argument("--csv", action="store_true", help="as a table for a program.")
-        parser.add_argument("-o", dest="octomap", metavar="FILE", help="saves its OctoMap, .bt or .ot.")
+        parser.add_argument("-o", dest="octomap", metavar="FILE", type=octomap, help="saves its OctoMap, .bt or .ot.")
 
     def run(args):
-        found = verdict(args, args.octomap)
+        found = verdict(args, octomap=args.octomap)
         if not args.csv:
-            print(found.sentences, end="", flush=True)
+            print("\n".join(found.sentences()), flush=True)
         found.require()
-        way = {name: found.way[name] for name in ("shortest way m", "guide path m")}
+        way = {name: round(found.way[name], 1) for name in ("shortest way m", "guide path m")}
         if args.csv:
-            table(["what", "value"], {**found.world, **{name: round(value, 1) for name, value in way.items()}}.items())
+            facts = ("world", "seed", "world hash", "floor z m", "start x m, y m, yaw rad", "goal x m, y m")
+            table(["what", "value"], {**found.world["counts"], **{name: found.world[name] for name in facts}, **way}.items())
         else:
             print("\n".join(f"{name[:-2]} {value:.1f} m" for name, value in way.items()))
 
@@ -83,9 +89,11 @@ class Show:
         parser.add_argument("-o", dest="picture", metavar="FILE", type=picture, help="the picture, .svg or .png; NAME.svg by default.")
 
     def run(args):
-        found = verdict(args)
-        guide = [] if found.refusal else ["--path", points(found.way["path"]), "--turns", points(found.way["turns"])]
-        status = draw(args.picture, show, tool(*WORLD_TOOL), "show", args.world, *words_of(args), *guide)
+        from navvi_cli import maps
+        path = args.picture or Path(Path(args.world).stem + ".svg")
+        found = verdict(args, drawing=True)
+        maps.save(maps.world(found.world, found.caption(), None if found.refusal else found.way), path)
+        print("\n".join(found.sentences()), flush=True)
+        say(f"the picture is in {path}.")
         if found.refusal:
             say(found.refusal)
-        return status

@@ -114,6 +114,7 @@ function(navvi_tests)
   add_executable(${target} EXCLUDE_FROM_ALL ${sources} $<TARGET_OBJECTS:navvi_test_main>)
   get_property(rooms DIRECTORY PROPERTY NAVVI_ROOMS)
   target_link_libraries(${target} ${rooms} ${TESTS_LINK} ${GTEST_LIBRARIES})
+  target_include_directories(${target} PRIVATE $<TARGET_PROPERTY:navvi_test_main,SOURCE_DIR>/test)
   set_target_properties(${target} PROPERTIES
     POSITION_INDEPENDENT_CODE OFF RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   navvi_own_code(${target})

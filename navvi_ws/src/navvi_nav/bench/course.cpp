@@ -12,7 +12,6 @@
 namespace navvi_nav::bench {
 
 using map::Floor;
-using mesh::GridPolygon;
 using mesh::Polygon;
 
 namespace {
@@ -31,12 +30,6 @@ Hall with_seed(Hall hall, std::uint32_t seed) {
   return hall;
 }
 
-std::vector<GridPolygon> grid(const plain::Detour& detour) {
-  std::vector<GridPolygon> out;
-  for (const auto& corners : detour.polygons()) out.push_back({corners});
-  return out;
-}
-
 }  // namespace
 
 double now() {
@@ -50,13 +43,8 @@ Course::Course(Hall hall, std::uint32_t seed)
       seed(seed),
       tree(with_seed(hall, seed).map()),
       bytes(bytes_of(tree)),
-      ours(config),
       carved(config),
-      columns(tree),
-      detour(columns, config.mesh.robot_radius, config.mesh.robot_height),
-      detour_query(detour.mesh()),
-      detours_mesh(mesh::join(grid(detour), tree.getResolution())) {
-  ours.set_map(map::voxels_of(tree));
+      columns(tree) {
   carved.set_map(map::voxels_of(tree));
   std::mt19937 random(seed);
   for (int i = 0; i < kQueries; ++i) {
@@ -119,7 +107,7 @@ std::vector<Cylinder> Course::discs(int count) const {
 }
 
 double Course::floor_area() const {
-  const mesh::Mesh& mesh = ours.nav_mesh().mesh();
+  const mesh::Mesh& mesh = carved.nav_mesh().mesh();
   double twice = 0.0;
   for (const Polygon& polygon : mesh.polygons) {
     for (std::size_t k = 2; k < polygon.corners.size(); ++k) {
@@ -132,7 +120,7 @@ double Course::floor_area() const {
 }
 
 Point Course::somewhere(std::mt19937& random) const {
-  const Floor& floor = *ours.nav_mesh().shared_floor();
+  const Floor& floor = *carved.nav_mesh().shared_floor();
   const Point low = floor.center_of(floor.origin());
   std::uniform_real_distribution<double> x(low.x, low.x + floor.columns() * floor.cell_size());
   std::uniform_real_distribution<double> y(low.y, low.y + floor.rows() * floor.cell_size());
@@ -142,7 +130,7 @@ Point Course::somewhere(std::mt19937& random) const {
 }
 
 int Course::component(Point point) const {
-  return *ours.nav_mesh().floor_components(point, kRoom).begin();
+  return *carved.nav_mesh().floor_components(point, kRoom).begin();
 }
 
 }  // namespace navvi_nav::bench

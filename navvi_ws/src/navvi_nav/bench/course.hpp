@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "hall.hpp"
-#include "plain_detour.hpp"
 #include "plain_tile_cache.hpp"
 #include "plan/planner.hpp"
 
@@ -41,17 +40,13 @@ struct Course {
   octomap::OcTree tree;
   std::vector<std::int8_t> bytes;          ///< the tree as octomap_msgs carries it, binary
   std::vector<std::int8_t> changed_bytes;  ///< the same with one box more
-  plan::Planner ours;
-  plan::Planner carved;  ///< the same mesh, to make holes in
+  plan::Planner carved;  ///< its mesh, to make holes in
   plain::Columns columns;
-  plain::Detour detour;
-  plain::Query detour_query;
   int tile = 0;  ///< cells, of TileCache's tiles: the fastest
   std::map<int, double>
       tiles_tried;  ///< by that size, ms for 50 discs moved and a path; infinite where it fails
   std::unique_ptr<plain::TileCache> tile_cache;
   std::unique_ptr<plain::Query> tile_cache_query;
-  mesh::Mesh detours_mesh;  ///< the very polygons that Detour searches, for our searches
   std::vector<Query> queries;
   std::vector<Query> across;  ///< the tenth of them whose ends are farthest apart
 

@@ -1,5 +1,5 @@
 // From a map to a mesh, from two points to a path, and from moved things to another path, beside
-// Recast, Detour and TileCache used plainly. Bakes are timed by the clock on the wall, since ours
+// TileCache used plainly. Bakes are timed by the clock on the wall, since ours
 // may use threads; all else by the processor, so that what else the machine does falls out of it.
 
 #include <benchmark/benchmark.h>
@@ -20,7 +20,7 @@
 #include <thread>
 #include <vector>
 
-#include "contestant.hpp"
+#include "course.hpp"
 #include "medians.hpp"
 #include "octomap_tree.hpp"
 #include "plan/worker.hpp"
@@ -38,60 +38,13 @@ using navvi_bench::Medians;
 
 constexpr double kMoved = 0.3;  // m, discs from one update to the next
 const std::vector<int> kDiscs{1, 10, 50, 200};
-constexpr int kMostInSession = 50;              // discs that a live session asks for
-const std::vector<int> kSearchedAmong{10, 50};  // discs
-constexpr double kOneTurn = 1.0;                // m, as PathFollowerConfig's
+constexpr int kMostInSession = 50;  // discs that a live session asks for
+constexpr double kOneTurn = 1.0;    // m, as PathFollowerConfig's
 const std::string kToFloor = "bytes to floor, ours, all threads",
                   kToMesh = "bytes to mesh, ours, all threads",
                   kOneThread = "bytes to mesh, ours, one thread",
                   kChanged = "one box changed, ours, all threads",
-                  kToTree = "bytes to tree, octomap", kWatershed = "spans to mesh, watershed",
-                  kTileCache = "spans to mesh, TileCache";
-
-std::string among(int discs) { return "among " + std::to_string(discs) + " discs: "; }
-
-/// Times each search alone, once a query, when all have been asked before; then the same twice
-/// more, to tell how many times as long as its own median each took. \param before  each of them,
-/// untimed
-void ask_all(State& state, const Course& course, const Contestant& search,
-             const std::function<void()>& before) {
-  std::vector<double> times;
-  double worst = 1.0;
-  for (const Query& query : course.queries)
-    if (search.locate(query)) benchmark::DoNotOptimize(search.find());
-  for (auto _ : state) {
-    before();
-    const Query& query = course.queries[times.size() % course.queries.size()];
-    double took[3] = {};
-    if (search.locate(query)) {
-      for (double& time : took) {
-        const double begin = now();
-        benchmark::DoNotOptimize(search.find());
-        time = now() - begin;
-      }
-    }
-    times.push_back(took[0]);
-    state.SetIterationTime(took[0]);
-    std::sort(std::begin(took), std::end(took));
-    if (took[1] > 0.0) worst = std::max(worst, times.back() / took[1]);
-  }
-  state.counters["own"] = worst;
-  std::sort(times.begin(), times.end());
-  state.counters["p50"] = 1e6 * times[times.size() / 2];
-  state.counters["p99"] = 1e6 * times[times.size() * 99 / 100];
-  state.counters["max"] = 1e6 * times.back();
-}
-
-/// Times each search alone, when the discs have moved since the query before.
-void ask_among_discs(State& state, const Course& course, const Contestant& search, int discs) {
-  const std::vector<Cylinder> here = course.discs(discs);
-  std::vector<Cylinder> there = here;
-  for (Cylinder& disc : there) disc.center.x += kMoved;
-  std::size_t turn = 0;
-  search.place({});
-  ask_all(state, course, search, [&] { search.place(++turn % 2 == 0 ? here : there); });
-  search.place({});
-}
+                  kToTree = "bytes to tree, octomap", kTileCache = "spans to mesh, TileCache";
 
 /// Times `replan` with the discs here and 0.3 m farther in turn, and a query each time.
 void move_discs(State& state, const Course& course, int count, const std::vector<Query>& queries,
@@ -140,26 +93,12 @@ void declare_bakes(Course& c) {
     std::istringstream stream(std::string(c.bytes.begin(), c.bytes.end()));
     octomap::OcTree(c.tree.getResolution()).readBinaryData(stream);
   });
-  add(kWatershed, [&c, &mesh] { plain::Detour(c.columns, mesh.robot_radius, mesh.robot_height); });
   add(kTileCache,
       [&c, &mesh] { plain::TileCache(c.columns, mesh.robot_radius, mesh.robot_height, c.tile); });
 }
 
 void declare(Course& c) {
   declare_bakes(c);
-  for (const Contestant& search : contestants(c))
-    benchmark::RegisterBenchmark((search.name + c.name).c_str(),
-                                 [&c, search](State& state) { ask_all(state, c, search, [] {}); })
-        ->Iterations(Course::kQueries)
-        ->UseManualTime();
-  for (const int discs : kSearchedAmong) {
-    for (const Contestant& search : among_discs(c))
-      benchmark::RegisterBenchmark(
-          (among(discs) + search.name + c.name).c_str(),
-          [&c, search, discs](State& state) { ask_among_discs(state, c, search, discs); })
-          ->Iterations(Course::kQueries)
-          ->UseManualTime();
-  }
   for (const int count : kDiscs) {
     const auto add = [&](const std::string& who, const auto& replan) {
       benchmark::RegisterBenchmark(
@@ -197,87 +136,6 @@ void heading(const std::string& what, const std::vector<std::string>& columns) {
   std::printf("\n%-40s", what.c_str());
   for (const std::string& column : columns) std::printf(" %10s", column.c_str());
   std::puts("");
-}
-
-/// What a search made of all queries.
-struct Answers {
-  int failures = 0;
-  int too_near = 0;      ///< paths that come nearer than the robot's radius to something
-  double length = 0.0;   ///< m, of all
-  double longest = 1.0;  ///< times the exact path on Detour's polygons
-};
-
-/// The paths themselves, which need no clock.
-void compare(Course& c) {
-  constexpr double kSlack = 1e-3;  // m, for Detour's single precision
-  const std::vector<Contestant> all = contestants(c);
-  std::vector<Answers> answers(all.size());
-  const map::Space space = c.ours.nav_mesh().space();
-  const auto near = [&](const Path& path) {
-    for (std::size_t k = 1; k < path.size(); ++k)
-      if (!space.segment_clear(path[k - 1], path[k], c.config.mesh.robot_radius - kSlack))
-        return true;
-    return false;
-  };
-  for (const Query& query : c.queries) {
-    std::vector<double> lengths;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const Path path = all[i].locate(query) ? all[i].find() : Path{};
-      lengths.push_back(length_of(path));
-      answers[i].length += lengths.back();
-      answers[i].failures += path.empty() ? 1 : 0;
-      answers[i].too_near += near(path) ? 1 : 0;
-    }
-    for (std::size_t i = kOursOnDetours; i < all.size(); ++i)
-      answers[i].longest = std::max(answers[i].longest, lengths[i] / lengths[kOursOnDetours]);
-  }
-  heading("paths", {"none", "too near", "mean, m", "/ exact", "longest /"});
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Answers& exact = answers[i < kOursOnDetours ? 0 : kOursOnDetours];
-    row(all[i].name,
-        {static_cast<double>(answers[i].failures), static_cast<double>(answers[i].too_near),
-         answers[i].length / Course::kQueries, answers[i].length / exact.length,
-         answers[i].longest});
-  }
-}
-
-/// What a better heuristic could spare: nodes expanded beside the polygons that the path crosses,
-/// each of which every search must expand.
-void count_nodes(Course& c) {
-  constexpr double kStep = 0.05;  // m, between places at which the path's polygon is looked up
-  search::Search search(search::SearchMethod::exact);
-  const mesh::Mesh& mesh = c.ours.nav_mesh().mesh();
-  std::vector<double> expanded, crossed, share;
-  for (const Query& query : c.queries) {
-    const auto from = mesh.locate(query.start, Course::kNear);
-    const auto to = mesh.locate(query.goal, Course::kNear);
-    if (!from || !to) continue;
-    const search::Found& found = search.find(mesh, *from, *to);
-    if (!found.found || found.nodes_expanded == 0) continue;
-    int polygons = 0, last = -1;
-    for (std::size_t i = 1; i < found.path.size(); ++i) {
-      const Point leg = found.path[i] - found.path[i - 1];
-      const int steps = static_cast<int>(std::ceil(norm(leg) / kStep));
-      for (int k = 0; k <= steps; ++k) {
-        const auto here =
-            mesh.locate(found.path[i - 1] + k / std::max(1.0, 1.0 * steps) * leg, 0.0);
-        if (!here || here->polygon == last) continue;
-        last = here->polygon;
-        ++polygons;
-      }
-    }
-    expanded.push_back(static_cast<double>(found.nodes_expanded));
-    crossed.push_back(polygons);
-    share.push_back(polygons / expanded.back());
-  }
-  heading("nodes of the exact search", {"p50", "p99"});
-  const auto print = [](const std::string& what, std::vector<double>& values) {
-    std::sort(values.begin(), values.end());
-    row(what, {values[values.size() / 2], values[values.size() * 99 / 100]});
-  };
-  print("expanded", expanded);
-  print("polygons that the path crosses", crossed);
-  print("crossed / expanded", share);
 }
 
 /// Turns as they are announced, and the least clearance of paths.
@@ -378,45 +236,6 @@ void weigh(const Course& c) {
               static_cast<double>(with_copy - with_mesh) / area);
 }
 
-/// The first query on a mesh that was just baked, and the same asked again.
-void ask_first(Course& c) {
-  constexpr std::size_t kBakes = 10;
-  std::vector<double> ours[2], theirs[2];  // us
-  const auto time_twice = [](std::vector<double>* times, const auto& find) {
-    for (int i = 0; i < 2; ++i) {
-      const double begin = now();
-      find();
-      times[i].push_back(1e6 * (now() - begin));
-    }
-  };
-  for (std::size_t i = 0; i < kBakes; ++i) {
-    const Query& query = c.queries[i];
-    plan::Planner planner(c.config);
-    planner.set_map(map::voxels_of(c.tree));
-    const mesh::Mesh& mesh = planner.nav_mesh().mesh();
-    search::Search search(search::SearchMethod::exact);
-    const auto from = mesh.locate(query.start, Course::kNear);
-    const auto to = mesh.locate(query.goal, Course::kNear);
-    if (from && to)
-      time_twice(ours, [&] { benchmark::DoNotOptimize(search.find(mesh, *from, *to)); });
-    const plain::Detour detour(c.columns, c.config.mesh.robot_radius, c.config.mesh.robot_height);
-    plain::Query detours(detour.mesh());
-    if (detours.locate(query.start, query.goal))
-      time_twice(theirs, [&] { benchmark::DoNotOptimize(detours.search()); });
-  }
-  heading("first query on a new mesh, us", {"p50", "max", "again p50", "/ Detour"});
-  const auto median = [](std::vector<double>& times) {
-    std::sort(times.begin(), times.end());
-    return times.empty() ? 0.0 : times[times.size() / 2];
-  };
-  const double first = median(theirs[0]);
-  for (auto* times : {ours, theirs}) {
-    const double p50 = median(times[0]);
-    row(times == ours ? "exact, our mesh" : "Detour",
-        {p50, times[0].back(), median(times[1]), p50 / first});
-  }
-}
-
 /// Largest difference from brute force, relative, without holes and with some.
 /// \param places  between all pairs of which a path is looked for
 void judge(Course& c, std::size_t places) {
@@ -483,7 +302,7 @@ double map_at_2_hz(const Course& c) {
 void print_maps(const Medians& medians, const Course& c) {
   heading("map, ms on the wall", {"", "/ TileCache"});
   for (const std::string& what :
-       {kToFloor, kToMesh, kOneThread, kChanged, kToTree, kWatershed, kTileCache}) {
+       {kToFloor, kToMesh, kOneThread, kChanged, kToTree, kTileCache}) {
     const double took = medians.get(what + c.name, "real_ms");
     row(what, {took, took / medians.get(kTileCache + c.name, "real_ms")});
   }
@@ -494,30 +313,13 @@ void print_maps(const Medians& medians, const Course& c) {
 
 void print(const Medians& medians, Course& c, bool maps_alone) {
   const std::string& name = c.name;
-  std::printf("\n== %s, %g m voxels, seed %u: %zu polygons ours, %zu Detour's\n", name.c_str(),
-              c.tree.getResolution(), c.seed, c.ours.nav_mesh().mesh().polygons.size(),
-              c.detour.polygons().size());
+  std::printf("\n== %s, %g m voxels, seed %u: %zu polygons\n", name.c_str(),
+              c.tree.getResolution(), c.seed, c.carved.nav_mesh().mesh().polygons.size());
   std::printf("TileCache with tiles of %d cells: 50 discs moved and a path, ms:", c.tile);
   for (const auto& [tile, took] : c.tiles_tried) std::printf(" %.2f (%d)", took, tile);
   std::puts("");
   print_maps(medians, c);
   if (maps_alone) return;
-  const auto searches = [&](const std::string& what, const std::string& prefix,
-                            const std::vector<Contestant>& all) {
-    heading(what, {"p50", "p99", "max", "/ Detour", "p99 /", "/ own p50"});
-    const std::string last = prefix + all.back().name + name;  // Detour
-    for (const Contestant& search : all) {
-      const auto get = [&](const char* value) {
-        return medians.get(prefix + search.name + name, value);
-      };
-      row(search.name, {get("p50"), get("p99"), get("max"), get("p50") / medians.get(last, "p50"),
-                        get("p99") / medians.get(last, "p99"), get("own")});
-    }
-  };
-  searches("search, us, all queries asked before", "", contestants(c));
-  for (const int discs : kSearchedAmong)
-    searches("search, us, " + std::to_string(discs) + " discs moved", among(discs), among_discs(c));
-  ask_first(c);
   for (const std::string across : {"", "across the hall "}) {
     heading("discs moved, exact path out " + across + "in ms", {"ours", "TileCache", "ratio"});
     for (const int count : kDiscs) {
@@ -528,8 +330,6 @@ void print(const Medians& medians, Course& c, bool maps_alone) {
       row(std::to_string(count) + far, {ours, theirs, ours / theirs});
     }
   }
-  count_nodes(c);
-  compare(c);
   follow(c);
   weigh(c);
 }
@@ -537,13 +337,13 @@ void print(const Medians& medians, Course& c, bool maps_alone) {
 }  // namespace
 
 /// Arguments: `--seed=N` for clutter and queries, `--resolution=M` of the maps, `--largest=M` hall,
-/// `--maps` to time nothing but maps, `--nodes` to count nodes and nothing else, `--judge` to check
-/// paths in all halls and nothing else, and Google Benchmark's own.
+/// `--maps` to time nothing but maps, `--judge` to check paths in all halls and nothing else, and
+/// Google Benchmark's own.
 int main(int argc, char** argv) {
   std::uint32_t seed = 1;
   double resolution = 0.1;
   double largest = 300.0;
-  bool judges = false, maps = false, nodes = false;
+  bool judges = false, maps = false;
   int kept = 1;
   for (int i = 1; i < argc; ++i) {
     if (std::strncmp(argv[i], "--seed=", 7) == 0)
@@ -554,8 +354,6 @@ int main(int argc, char** argv) {
       largest = std::strtod(argv[i] + 10, nullptr);
     else if (std::strcmp(argv[i], "--judge") == 0)
       judges = true;
-    else if (std::strcmp(argv[i], "--nodes") == 0)
-      nodes = true;
     else if (std::strcmp(argv[i], "--maps") == 0)
       maps = true;
     else
@@ -569,13 +367,6 @@ int main(int argc, char** argv) {
           Hall{hall.length, hall.width, hall.clutter, seed, resolution}, seed));
   if (judges) {
     for (const auto& course : courses) judge(*course, 125);
-    return 0;
-  }
-  if (nodes) {
-    for (const auto& course : courses) {
-      std::printf("\n== %s", course->name.c_str());
-      count_nodes(*course);
-    }
     return 0;
   }
   for (const auto& course : courses) maps ? declare_bakes(*course) : declare(*course);

@@ -1,18 +1,14 @@
-// A map in; its mesh in numbers, as a picture, and a path over it.
+// The program behind `./navvi navmesh`: navmesh_tool MAP [name:=value ...] prints a map's mesh, and
+// a path over it, as JSON. MAP is an OctoMap (.bt, .ot) or a map_server map (.yaml); the names are
+// nav_node's parameters and those of ToolConfig. Exit codes: 0 done, 1 no path, 2 an error.
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <navvi_config/reader.hpp>
 #include <navvi_files/json.hpp>
 #include <navvi_floor/map_file.hpp>
-#include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,119 +16,62 @@
 
 #include "guide/navigator.hpp"
 #include "smooth/turns.hpp"
-#include "tool/mesh_picture.hpp"
 
 namespace {
 
 using namespace navvi_nav;
-using namespace navvi_nav::tool;
-
-constexpr const char* kUsage =
-    R"(navmesh MAP [-o FILE.svg] [--from X,Y --to X,Y] [--cylinder X,Y,R ...] [--config FILE.yaml]
-        [--stage STAGE] [--json FILE] [name:=value ...]
-  MAP         an OctoMap (.bt, .ot) or a map_server map (.yaml)
-  -o          draw the map, its mesh, the cylinders and the path; ./navvi also takes FILE.png
-  --from --to search a path, m in map
-  --cylinder  cut a hole around something that moves, m in map
-  --stage     stop after map, bake, mesh (holes), search (shortest path) or smooth (the default)
-  --config    parameters that differ from the defaults, as in nav_node's config files; single ones
-              as in mesh/climb:=0.1
-  --json FILE the numbers and the path, or why there is none, for a program
-)";
-
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using navvi_config::ConfigError;
+using navvi_files::json_list;
+using navvi_files::json_number;
+using navvi_files::json_object;
+using navvi_files::json_text;
+using navvi_files::JsonFields;
 
 /// The stages of a query, in their order.
 enum class Stage { map, bake, mesh, search, smooth };
-constexpr std::array<const char*, 5> kStages = {"map", "bake", "mesh", "search", "smooth"};
+const std::vector<std::string> kStages = {"map", "bake", "mesh", "search", "smooth"};
 
-Stage stage_named(const std::string& word) {
-  const auto found = std::find(kStages.begin(), kStages.end(), word);
-  if (found == kStages.end())
-    throw UsageError("\"" + word +
-                     "\" is not a stage; map, bake, mesh, search and smooth are allowed");
-  return static_cast<Stage>(found - kStages.begin());
-}
-
-struct Options {
-  std::string map;
-  std::string picture;
+struct ToolConfig {
+  guide::NavigatorConfig navigator;
+  std::string stage_name = "smooth";
   std::string config;
-  std::string json;
-  Stage stage = Stage::smooth;
-  std::optional<Point> from;
-  std::optional<Point> to;
-  std::vector<Cylinder> cylinders;
-  std::vector<std::string> parameters;  ///< name:=value
-  bool help = false;
+  std::vector<double> from, to, cylinders;
+  bool drawing = false;
+
+  void describe(navvi_config::Visitor& visit) {
+    using navvi_config::Any;
+    navigator.describe(visit);
+    visit(stage_name, "stage", navvi_config::OneOf{kStages}, "",
+          "the last one: map, bake, mesh (holes), search (shortest path) or smooth");
+    visit(config, "config", Any{}, "", "a YAML file of parameters, like those of nav_node");
+    visit(from, "from", Any{}, "m", "[x, y] where a path begins, in map");
+    visit(to, "to", Any{}, "m", "[x, y] where it ends");
+    visit(cylinders, "cylinders", Any{}, "m", "[x, y, radius, ...] of what moves, cut out");
+    visit(drawing, "drawing", Any{}, "", "whether to print floor and polygons as well");
+  }
+  [[nodiscard]] bool reaches(Stage stage) const {
+    return std::find(kStages.begin(), kStages.end(), stage_name) - kStages.begin() >=
+           static_cast<std::ptrdiff_t>(stage);
+  }
 };
 
-std::vector<double> numbers_in(const std::string& option, const std::string& text,
-                               std::size_t count) {
-  std::vector<double> out;
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  for (double value = 0.0; stream >> value;) {
-    out.push_back(value);
-    if (stream.peek() != ',') break;
-    stream.ignore();
+ToolConfig read_config(const std::vector<std::string>& words) {
+  ToolConfig out;
+  const YAML::Node given = navvi_config::read_words(words);
+  if (given["config"]) {
+    const auto file = given["config"].as<std::string>();
+    navvi_config::read(out.navigator, navvi_config::load_yaml(file), file,
+                       navvi_config::Removed::ignored);
   }
-  if (out.size() != count || stream.peek() != std::istringstream::traits_type::eof())
-    throw UsageError(option + " \"" + text + "\" is not " + std::to_string(count) +
-                     " numbers with commas between, such as " +
-                     (count == 2 ? "1.5,2" : "1.5,2,0.4"));
-  return out;
-}
-
-Options read_options(const std::vector<std::string>& words) {
-  Options out;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    const auto value = [&]() -> const std::string& {
-      if (i + 1 == words.size()) throw UsageError(word + " needs a value");
-      return words[++i];
-    };
-    const auto point = [&] {
-      const std::vector<double> at = numbers_in(word, value(), 2);
-      return Point{at[0], at[1]};
-    };
-    if (word == "--help") {
-      out.help = true;
-    } else if (word == "--picture" || word == "-o") {
-      out.picture = value();
-      if (std::filesystem::path(out.picture).extension() != ".svg")
-        throw UsageError("\"" + out.picture +
-                         "\" cannot be drawn; allowed is .svg");
-    } else if (word == "--stage") {
-      out.stage = stage_named(value());
-    } else if (word == "--config") {
-      out.config = value();
-    } else if (word == "--json") {
-      out.json = value();
-    } else if (word == "--from") {
-      out.from = point();
-    } else if (word == "--to") {
-      out.to = point();
-    } else if (word == "--cylinder") {
-      const std::vector<double> at = numbers_in(word, value(), 3);
-      if (!(at[2] > 0.0)) throw UsageError("the radius of a cylinder must be more than 0");
-      out.cylinders.push_back(
-          {static_cast<std::uint32_t>(out.cylinders.size() + 1), {at[0], at[1]}, at[2], {}});
-    } else if (word.rfind("--", 0) == 0) {
-      throw UsageError("\"" + word + "\" is not an option");
-    } else if (word.find(":=") != std::string::npos) {
-      out.parameters.push_back(word);
-    } else if (out.map.empty()) {
-      out.map = word;
-    } else {
-      throw UsageError("unexpected argument \"" + word + "\"; one map is enough");
-    }
-  }
-  if (out.map.empty() && !out.help) throw UsageError("no map is named");
-  if (out.from.has_value() != out.to.has_value()) throw UsageError("--from and --to go together");
+  navvi_config::read(out, given, "the command line");
+  for (const auto* point : {&out.from, &out.to})
+    if (!point->empty() && point->size() != 2)
+      throw ConfigError("from and to must be two numbers each, such as [1.5, 2].");
+  if (out.from.size() != out.to.size()) throw ConfigError("from and to must be given together.");
+  for (std::size_t i = 2; i < out.cylinders.size() + 2; i += 3)
+    if (i >= out.cylinders.size() || !(out.cylinders[i] > 0.0))
+      throw ConfigError("cylinders must be x, y and a radius above 0 each, such as [1.5, 2, 0.4].");
+  if (!out.reaches(Stage::smooth)) out.navigator.planner.smoothing.enabled = false;
   return out;
 }
 
@@ -169,28 +108,11 @@ MeshFigures figures_of(const mesh::Mesh& mesh) {
   return out;
 }
 
-/// What a program reads; print_mesh() and print_plan() print the same for people.
-using navvi_files::JsonFields;
-
-JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
-                      const plan::MeshUpdate& update) {
+JsonFields fields_of(const std::string& source, const plan::NavMesh& nav_mesh, int tiles) {
   const map::Floor& floor = *nav_mesh.shared_floor();
   const mesh::Mesh& mesh = nav_mesh.mesh();
   const MeshFigures is = figures_of(mesh);
-  if (!source.empty()) std::printf("map         %s\n", source.c_str());
-  std::printf("floor       %.2f x %.2f m in cells of %.3g m, at z = %.2f m\n",
-              floor.columns() * floor.cell_size(), floor.rows() * floor.cell_size(),
-              floor.cell_size(), floor.height());
-  std::printf(
-      "mesh        %.1f m^2, %zu polygons, %zu vertices, %zu portals, %d tiles, %zu components, "
-      "the "
-      "largest of %.1f m^2\n",
-      is.area, is.polygons, mesh.vertices.size(), is.portals, update.tiles, is.components,
-      is.largest);
-  std::printf("memory      %zu bytes, %.1f a square metre\n", is.bytes,
-              static_cast<double>(is.bytes) / is.area);
-  using navvi_files::json_number;
-  return {{"map", navvi_files::json_text(source)},
+  return {{"map", json_text(source)},
           {"floor length m", json_number(floor.columns() * floor.cell_size(), 2)},
           {"floor width m", json_number(floor.rows() * floor.cell_size(), 2)},
           {"cell m", json_number(floor.cell_size(), 3)},
@@ -199,7 +121,7 @@ JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
           {"polygons", std::to_string(is.polygons)},
           {"vertices", std::to_string(mesh.vertices.size())},
           {"portals", std::to_string(is.portals)},
-          {"tiles", std::to_string(update.tiles)},
+          {"tiles", std::to_string(tiles)},
           {"components", std::to_string(is.components)},
           {"largest component m^2", json_number(is.largest, 1)},
           {"memory bytes", std::to_string(is.bytes)}};
@@ -208,134 +130,108 @@ JsonFields print_mesh(const std::string& source, const plan::NavMesh& nav_mesh,
 std::string json_of(const Path& path) {
   std::vector<std::string> points;
   for (const Point point : path)
-    points.push_back(navvi_files::json_list(
-        {navvi_files::json_number(point.x, 2), navvi_files::json_number(point.y, 2)}));
-  return navvi_files::json_list(points);
+    points.push_back(json_list({json_number(point.x, 2), json_number(point.y, 2)}));
+  return json_list(points);
 }
 
-void print_plan(const plan::Plan& plan, const Path& turns, double milliseconds,
-                JsonFields& fields) {
-  std::printf("query       %.3f ms with smoothing, %zu nodes\n", milliseconds, plan.nodes_expanded);
-  std::printf("shortest    %.6f m\n", plan.shortest);
-  std::printf("guide path  %.3f m:", length_of(plan.path));
-  for (const Point point : plan.path) std::printf(" %.2f,%.2f", point.x, point.y);
-  std::printf("\nturns       %zu:", turns.size());
-  for (const Point point : turns) std::printf(" %.2f,%.2f", point.x, point.y);
-  std::puts("");
-  fields.emplace_back("query ms", navvi_files::json_number(milliseconds, 3));
-  fields.emplace_back("shortest way m", navvi_files::json_number(plan.shortest));
-  fields.emplace_back("guide path m", navvi_files::json_number(length_of(plan.path), 3));
-  fields.emplace_back("path", json_of(plan.path));
-  fields.emplace_back("turns", json_of(turns));
-}
-
-/// Each library ends its sentences in its own way.
-void tell(std::string sentence) {
-  if (sentence.back() != '.') sentence += '.';
-  std::cerr << "navmesh: " << sentence << '\n';
-}
-
-guide::NavigatorConfig config_of(const Options& options) {
-  guide::NavigatorConfig config;
-  if (!options.config.empty())
-    navvi_config::read(config, navvi_config::load_yaml(options.config), options.config,
-                       navvi_config::Removed::ignored);
-  navvi_config::read(config, navvi_config::read_words(options.parameters), "the command line");
-  if (options.stage == Stage::search) config.planner.smoothing.enabled = false;
-  return config;
+/// The floor's rows from the lowest y on, a sign a cell: "." floor, "#" obstacle, " " none; and the
+/// polygons of the mesh by component.
+void add_drawing(JsonFields& fields, const plan::NavMesh& nav_mesh, bool with_mesh) {
+  const map::Floor& floor = *nav_mesh.shared_floor();
+  const map::Area area = floor.area();
+  std::vector<std::string> rows, polygons;
+  for (int y = area.low.y; y < area.high.y; ++y) {
+    std::string row;
+    for (int x = area.low.x; x < area.high.x; ++x) {
+      const map::Ground ground = floor.ground({x, y});
+      row += ground == map::Ground::floor ? '.' : ground == map::Ground::obstacle ? '#' : ' ';
+    }
+    rows.push_back(json_text(row));
+  }
+  const mesh::Mesh& mesh = nav_mesh.mesh();
+  for (std::size_t i = 0; with_mesh && i < mesh.polygons.size(); ++i)
+    if (!mesh.polygons[i].corners.empty())
+      polygons.push_back(json_list({std::to_string(mesh.polygons[i].component),
+                                    json_of(mesh.outline(static_cast<int>(i)))}));
+  fields.emplace_back("origin m", json_list({json_number(area.low.x * floor.cell_size()),
+                                             json_number(area.low.y * floor.cell_size())}));
+  fields.emplace_back("ground", json_list(rows));
+  fields.emplace_back("mesh", json_list(polygons));
 }
 
 /// ms since the last lap.
 class Stopwatch {
  public:
-  double lap() {
+  std::string lap() {
     const auto before = std::exchange(last_, std::chrono::steady_clock::now());
-    return std::chrono::duration<double, std::milli>(last_ - before).count();
+    return json_number(std::chrono::duration<double, std::milli>(last_ - before).count(), 3);
   }
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// The map's mesh with its holes, as far as the stage asks for; prints it in numbers.
-plan::Planner planner_on_map(const Options& options, const plan::PlannerConfig& config,
-                             JsonFields& fields) {
+/// \return whether there is a path
+bool add_plan(JsonFields& fields, plan::Planner& planner, const ToolConfig& config) {
   Stopwatch watch;
-  const map::MapSurvey survey = map::survey_file(options.map, plan::survey_config(config.mesh));
-  if (!survey.error.empty()) throw UsageError(survey.error);
-  const double surveyed = watch.lap();
-  plan::Planner planner(config);
+  const plan::Plan plan =
+      planner.plan({config.from[0], config.from[1]}, {config.to[0], config.to[1]});
+  const std::string planned = watch.lap();
+  if (plan.status != plan::PlanStatus::found) {
+    fields.emplace_back("refusal",
+                        json_text(plan.detail.empty() ? "there is no route" : plan.detail));
+    return false;
+  }
+  Path turns;
+  for (const smooth::Turn turn :
+       smooth::turns_of(plan.path, config.navigator.path.guidance.one_turn))
+    turns.push_back(plan.path[turn.at]);
+  if (!turns.empty()) turns.pop_back();  // the goal
+  fields.insert(fields.end(), {{"query ms", planned},
+                               {"nodes", std::to_string(plan.nodes_expanded)},
+                               {"shortest way m", json_number(plan.shortest)},
+                               {"guide path m", json_number(length_of(plan.path), 3)},
+                               {"path", json_of(plan.path)},
+                               {"turns", json_of(turns)}});
+  return true;
+}
+
+int run(const std::vector<std::string>& words) {
+  if (words.empty()) throw ConfigError("no map is named.");
+  const std::string& file = words.front();
+  const ToolConfig config = read_config({words.begin() + 1, words.end()});
+  Stopwatch watch;
+  const map::MapSurvey survey =
+      map::survey_file(file, plan::survey_config(config.navigator.planner.mesh));
+  if (!survey.error.empty()) throw ConfigError(survey.error);
+  const std::string surveyed = watch.lap();
+  plan::Planner planner(config.navigator.planner);
   const plan::MeshUpdate update = planner.set_map(survey);
-  if (!update.error.empty()) throw UsageError(options.map + ": " + update.error);
-  const double baked = watch.lap();
-  if (options.stage >= Stage::mesh) planner.carve(options.cylinders);
-  const double carved = watch.lap();
-  fields = print_mesh(survey.source, planner.nav_mesh(), update);
-  std::printf("time        %.1f ms to read and survey, %.1f ms to bake, %.2f ms to cut holes\n",
-              surveyed, baked, carved);
-  return planner;
-}
-
-PictureOf picture_of(const Options& options, const plan::NavMesh& nav_mesh) {
-  PictureOf out;
-  out.floor = nav_mesh.shared_floor().get();
-  if (options.stage >= Stage::bake) out.mesh = &nav_mesh.mesh();
-  if (options.stage >= Stage::mesh) out.cylinders = options.cylinders;
-  return out;
-}
-
-/// Prints the path and puts it into the picture. \returns why there is none; empty: there is one
-std::string plan_into(PictureOf& picture, plan::Planner& planner, const Options& options,
-                      double one_turn, JsonFields& fields) {
-  Stopwatch watch;
-  const plan::Plan plan = planner.plan(*options.from, *options.to);
-  const double planned = watch.lap();
-  if (plan.status != plan::PlanStatus::found)
-    return plan.detail.empty() ? "there is no route" : plan.detail;
-  picture.path = plan.path;
-  for (const smooth::Turn turn : smooth::turns_of(plan.path, one_turn))
-    picture.turns.push_back(plan.path[turn.at]);
-  if (!picture.turns.empty()) picture.turns.pop_back();  // the goal
-  print_plan(plan, picture.turns, planned, fields);
-  return {};
-}
-
-int run(const Options& options) {
-  const guide::NavigatorConfig config = config_of(options);
-  std::ofstream file;
-  if (!options.picture.empty()) {
-    file.open(options.picture);
-    if (!file) throw UsageError(options.picture + ": the picture cannot be written");
-  }
-  JsonFields fields;
-  plan::Planner planner = planner_on_map(options, config.planner, fields);
-  PictureOf picture = picture_of(options, planner.nav_mesh());
-  std::string refusal;
-  if (options.from && options.stage >= Stage::search)
-    refusal = plan_into(picture, planner, options, config.path.guidance.one_turn, fields);
-  if (!refusal.empty()) fields.emplace_back("refusal", navvi_files::json_text(refusal));
-  if (!options.picture.empty()) {
-    file << svg_of(picture);
-    if (!file.flush()) throw UsageError(options.picture + ": the picture cannot be written");
-  }
-  if (!options.json.empty()) navvi_files::write_json(options.json, fields);
-  if (refusal.empty()) return 0;
-  tell(refusal);
-  return 1;
+  if (!update.error.empty()) throw ConfigError(file + ": " + update.error);
+  const std::string baked = watch.lap();
+  std::vector<Cylinder> cylinders;
+  for (auto at = config.cylinders.begin(); at != config.cylinders.end(); at += 3)
+    cylinders.push_back(
+        {static_cast<std::uint32_t>(cylinders.size() + 1), {at[0], at[1]}, at[2], {}});
+  if (config.reaches(Stage::mesh)) planner.carve(cylinders);
+  const std::string carved = watch.lap();
+  JsonFields fields = fields_of(survey.source, planner.nav_mesh(), update.tiles);
+  fields.insert(fields.end(), {{"survey ms", surveyed}, {"bake ms", baked}, {"cut ms", carved}});
+  const bool found = config.from.empty() || !config.reaches(Stage::search) ||
+                     add_plan(fields, planner, config);
+  if (config.drawing) add_drawing(fields, planner.nav_mesh(), config.reaches(Stage::bake));
+  std::cout << json_object(fields) << '\n';
+  return found ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    const Options options = read_options({argv + 1, argv + argc});
-    if (options.help) {
-      std::cout << kUsage;
-      return 0;
-    }
-    return run(options);
+    return run({argv + 1, argv + argc});
   } catch (const std::exception& error) {
-    tell(error.what());
+    const std::string sentence = error.what();  // each library ends its sentences in its own way
+    std::cerr << "navmesh: " << sentence << (sentence.back() == '.' ? "\n" : ".\n");
+    return 2;
   }
-  return 2;
 }

@@ -50,7 +50,7 @@ class Check:
             return 0
         lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
         print("\n".join(["", *lines]))
-        for picture in worlds.draw(planned, TOOLS["navvi"]) if args.pictures else []:
+        for picture in worlds.pictures(planned, TOOLS["draw"]) if args.pictures else []:
             print(f"navvi: written: {picture}")
         return 0 if alike else 1
 
@@ -381,7 +381,7 @@ def _write_report(study, only, rehearsed):
     progress = study.progress()
     files = table.write(study, progress, _figures())
     if not only:
-        files.append(report.write(study, progress, rehearsed, worlds.picture_for(study.plan, TOOLS["navvi"])))
+        files.append(report.write(study, progress, rehearsed, worlds.picture_for(study.plan, TOOLS["draw"])))
     elif only not in MEASURES or only not in (measured := Analysis(study, progress)).asked():
         raise StudyError(f"--only is \"{only}\"; allowed is a measure with values, of: {', '.join(MEASURES)}.")
     else:

@@ -16,15 +16,15 @@ from .study import write_safely
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
-def write(study, progress, rehearsed, picture=lambda world, seed: None):
+def write(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
     """Returns the file."""
     path = study.folder / "report.html"
     write_safely(path, page(study, progress, rehearsed, picture))
     return path
 
 
-def page(study, progress, rehearsed, picture=lambda world, seed: None):
-    """\\param picture  the SVG of a world and seed; None where it cannot be drawn"""
+def page(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
+    """\\param picture  the SVG of a world and seed with driven ways; empty where it cannot be drawn"""
     analysis = Analysis(study, progress)
     command = f"./navvi study {'rehearse' if rehearsed else 'report'} {Path(progress.plan.file).name}"
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
@@ -131,13 +131,13 @@ def maps(found, plan, picture, command):
     """A map a world, with the ways of all its trials."""
     conditions, parts = [condition.name for condition in plan.conditions], []
     for (world, seed), driven in ways.by_world(found).items():
-        base = picture(world, seed)
-        drawn = base and ways.over_map(base, driven, conditions, figures.COLOURS)
+        at = {name: number % len(ways.DASHES) for number, name in enumerate(conditions)}
+        drawn = picture(world, seed, [(figures.COLOURS[at[name]], ways.DASHES[at[name]], way) for name, way in driven])
         rows = [[name, len(lengths), shown(statistics.mean(lengths)), shown(min(lengths)), shown(max(lengths))] for name in conditions
                 if (lengths := [ways.length(way) for condition, way in driven if condition == name])]
         words = "; ".join(f"{row[0]}: {row[1]} ways, {row[2]} m on average" for row in rows)
         world = Path(world).name
-        parts.append({"world": f"{world} {seed}", "svg": base64.b64encode(drawn.encode()).decode() if drawn else "", "rows": rows, "command": command,
+        parts.append({"world": f"{world} {seed}", "svg": base64.b64encode(drawn).decode(), "rows": rows, "command": command,
                       "alt": f"The map of world {world}, seed {seed}, with the ways that were driven in it. {words}. The table below has their lengths."})
     return parts
 

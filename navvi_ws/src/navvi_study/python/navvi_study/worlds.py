@@ -27,30 +27,27 @@ def drive(plan, trials_bench, jobs=2):
         return dict(zip(worlds, pool.map(one, worlds)))
 
 
-def draw(plan, navvi):
-    """Pictures of all worlds from above, with the path and its turns. Returns their files. Raises StudyError."""
-    return [drawing_of(plan, navvi, world) for world in plan.worlds]
+def pictures(plan, draw):
+    """Draws all worlds from above, with the path and its turns. Returns the files."""
+    folder = plan.folder / "worlds"
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {world: folder / f"{Path(world.world).stem}-{world.seed}.svg" for world in plan.worlds}
+    for world, file in files.items():
+        draw(str(plan.world_file(world) or world.world), [f"seed:={world.seed}"], file)
+    return [*files.values()]
 
 
-def drawing_of(plan, navvi, world):
-    """The file of the picture of one world. Raises StudyError."""
-    file = plan.folder / "worlds" / f"{Path(world.world).stem}-{world.seed}.svg"
-    file.parent.mkdir(parents=True, exist_ok=True)
-    command = [str(navvi), "world", "show", str(plan.world_file(world) or world.world), f"seed:={world.seed}", "-o", str(file)]
-    result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
-    if result.returncode != 0:
-        raise StudyError(f"{plan.file}: {world} cannot be drawn: {(result.stderr or result.stdout).strip()}")
-    return file
-
-
-def picture_for(plan, navvi):
-    """A function of world and seed as they stand in the record: the picture's text, None where it cannot be drawn."""
-    def picture(world, seed):
+def picture_for(plan, draw):
+    """A function of world and seed as they stand in the record and of driven ways: the picture as SVG, empty where it cannot be drawn."""
+    def picture(world, seed, driven):
         known = [one for one in plan.worlds if str(one.seed) == seed and Path(one.world).stem == Path(world).stem]
+        svg = io.BytesIO()
         try:
-            return drawing_of(plan, navvi, known[0]).read_text(encoding="utf-8") if known else None
+            for one in known[:1]:
+                draw(str(plan.world_file(one) or one.world), [f"seed:={one.seed}"], svg, driven)
         except (StudyError, OSError):
-            return None
+            return b""
+        return svg.getvalue()
     return picture
 
 
