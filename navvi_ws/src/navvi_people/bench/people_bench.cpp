@@ -11,6 +11,7 @@
 #include <deque>
 #include <functional>
 #include <navvi_config/reader.hpp>
+#include <navvi_types/angles.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ using namespace navvi_people;
 using people::SimulatedOperatorConfig;
 
 constexpr double kStep = 0.02;  // s
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = navvi_types::radians(1.0);
 constexpr int kPeople = 200;
 constexpr int kTrials = 40;
 constexpr double kLimit = 300.0;  // s

@@ -17,19 +17,12 @@ btTransform to_bt(const Eigen::Isometry3d& pose) {
                      to_bt(Eigen::Vector3d(pose.translation())));
 }
 
-std::unique_ptr<btBroadphaseInterface> broadphase(BareBullet::Settings settings) {
-  const btVector3 reach(500, 500, 50);
-  if (settings == BareBullet::Settings::sweep) return std::make_unique<btAxisSweep3>(-reach, reach);
-  return std::make_unique<btDbvtBroadphase>();
-}
-
 }  // namespace
 
 BareBullet::BareBullet(const WorldDescription& description, const physics::RobotConfig& robot,
-                       const Pose2& start, Settings settings)
-    : settings_(settings), broadphase_(broadphase(settings)) {
+                       const Pose2& start) {
   world_.setGravity(btVector3(0, 0, 0));
-  world_.setForceUpdateAllAabbs(settings == Settings::as_they_come);
+  world_.setForceUpdateAllAabbs(false);
   for (const Thing& thing : description.things)
     if (thing.thing_class != ThingClass::floor) add_thing(thing);
 
@@ -67,10 +60,7 @@ btRigidBody& BareBullet::add_body(double mass, btCollisionShape& shape, const bt
   body.setWorldTransform(pose);
   body.setInterpolationWorldTransform(pose);
   body.setFriction(0);
-  if (settings_ != Settings::as_they_come)
-    world_.addRigidBody(&body, group, mask);
-  else
-    world_.addRigidBody(&body);
+  world_.addRigidBody(&body, group, mask);
   return body;
 }
 

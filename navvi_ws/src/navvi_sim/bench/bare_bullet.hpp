@@ -12,18 +12,13 @@
 namespace navvi_sim::bench {
 
 /// Bullet used plainly on the bodies of a world: what a step costs without World. Movers run along
-/// their routes at full speed and mind nobody; nothing is asked of the world but to step.
+/// their routes at full speed and mind nobody; nothing is asked of the world but to step. Bounds
+/// of what stands still are not renewed, and things meet the robot only.
 class BareBullet {
  public:
-  enum class Settings {
-    as_they_come,  ///< all bounds are renewed in each step, also of what stands still
-    tuned,         ///< they are not, and things meet the robot only
-    sweep,         ///< likewise, and pairs are found by sweeping an axis, not by a tree
-  };
-
   /// Boxes, cylinders and spheres only; floors have no body.
   BareBullet(const WorldDescription& description, const physics::RobotConfig& robot,
-             const Pose2& start, Settings settings);
+             const Pose2& start);
   ~BareBullet();
   BareBullet(const BareBullet&) = delete;
   BareBullet& operator=(const BareBullet&) = delete;
@@ -44,15 +39,14 @@ class BareBullet {
   template <typename Shape, typename... Arguments>
   Shape& keep(Arguments&&... arguments);
 
-  Settings settings_;
   // In this order: what is used is older than what uses it.
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
-  std::unique_ptr<btBroadphaseInterface> broadphase_;
+  btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
-  btDiscreteDynamicsWorld world_{&dispatcher_, broadphase_.get(), &solver_, &configuration_};
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   std::vector<Mover> movers_;
   btRigidBody* robot_ = nullptr;
 };

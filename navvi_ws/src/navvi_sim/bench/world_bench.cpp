@@ -1,7 +1,6 @@
 // A step of a world, alone and with all that a session makes of it, beside Bullet on the same
-// bodies; the gaps to what is near; the memory a thing takes.
+// bodies; the gaps to what is near.
 
-#include <malloc.h>
 #include <ros/serialization.h>
 #include <rosgraph_msgs/Clock.h>
 
@@ -100,9 +99,9 @@ void run_world(benchmark::State& state, const Scenery& scenery, bool publishing)
   if (publishing) state.SetBytesProcessed(static_cast<std::int64_t>(bytes));
 }
 
-void run_bullet(benchmark::State& state, const Scenery& scenery, BareBullet::Settings settings) {
+void run_bullet(benchmark::State& state, const Scenery& scenery) {
   const live::WorldConfig config;
-  BareBullet bullet(scenery.world, config.robot, scenery.start, settings);
+  BareBullet bullet(scenery.world, config.robot, scenery.start);
   const auto step = [&] {
     bullet.step(scenery.command.linear, scenery.command.angular, config.step);
   };
@@ -116,30 +115,6 @@ void run_proximity(benchmark::State& state, const WorldDescription& description,
   std::size_t near = 0;
   for (auto _ : state) near = world.proximity(kDetectionRadius).things.size();
   state.counters["near"] = static_cast<double>(near);
-}
-
-/// kB of memory that a world of these takes, once made and stepped.
-double kilobytes_of(const WorldDescription& description, const Pose2& start) {
-  const std::size_t before = mallinfo2().uordblks;
-  live::World world(description, {}, start, 1);
-  for (int i = 0; i < kWarmUp; ++i) (void)world.step({});
-  return static_cast<double>(mallinfo2().uordblks - before) / 1024.0;
-}
-
-void print_memory() {
-  std::puts("\nmemory of a world, kB a thing (a shelf of 18 boxes, or a mover)");
-  for (const int cells : {8, 16, 33}) {
-    const auto count = static_cast<std::size_t>(cells * cells);
-    const Scenery& empty = crowded(cells, 0, 0);
-    const Scenery& shelves = crowded(cells, count, 0);
-    const Scenery& both = crowded(cells, count, count);
-    const double of_none = kilobytes_of(empty.world, empty.start);
-    const double of_shelves = kilobytes_of(shelves.world, shelves.start);
-    const double of_both = kilobytes_of(both.world, both.start);
-    const auto things = static_cast<double>(count);
-    std::printf("%7.2f a shelf, %7.2f a mover, of %zu each\n", (of_shelves - of_none) / things,
-                (of_both - of_shelves) / things, count);
-  }
 }
 
 struct Row {
@@ -173,16 +148,8 @@ int main(int argc, char** argv) {
         ->Unit(kUnit);
     RegisterBenchmark(("and messages, " + row.name).c_str(), run_world, row.scenery, true)
         ->Unit(kUnit);
-    RegisterBenchmark(("Bullet, " + row.name).c_str(), run_bullet, row.scenery,
-                      BareBullet::Settings::tuned)
-        ->Unit(kUnit);
+    RegisterBenchmark(("Bullet, " + row.name).c_str(), run_bullet, row.scenery)->Unit(kUnit);
   }
-  for (const auto& [name, settings] :
-       {std::pair("Bullet as it comes", BareBullet::Settings::as_they_come),
-        std::pair("Bullet with a sweep", BareBullet::Settings::sweep)})
-    RegisterBenchmark((std::string(name) + ", " + rows[0].name).c_str(), run_bullet, warehouse(),
-                      settings)
-        ->Unit(kUnit);
   for (const int cells : {6, 12, 24, 33}) {
     const auto count = static_cast<std::size_t>(cells * cells);
     const Scenery& scenery = crowded(cells, count, count);
@@ -202,6 +169,5 @@ int main(int argc, char** argv) {
   }
   const Medians medians(argc, argv, Medians::Print::medians);
   print_table(medians, rows, live::WorldConfig{}.step);
-  print_memory();
   return 0;
 }

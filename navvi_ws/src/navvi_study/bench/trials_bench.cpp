@@ -16,7 +16,7 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_people/loop/closed_loop.hpp>
 #include <navvi_types/angles.hpp>
-#include <optional>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,89 +29,63 @@ namespace navvi_study::bench {
 namespace {
 
 using batch::LoopTrial;
+using navvi_config::ConfigError;
 using navvi_people::loop::ClosedLoop;
 using record::Figure;
 
-constexpr const char* kUsage =
-    "bench trials [--world=NAME|FILE[,...]] [--seeds=1-10] [--limit=300] [--profile=paper]\n"
-    "             [--sensing=truth|lidar|robot] [--jobs=1] [--cache=512] [--csv]\n"
-    "             [--out=DIR] [--records=all|failed|none] [--trace[=FROM-TO]] [--check]\n"
-    "             [part/name:=value ...]\n"
-    "One row a trial; with --csv all figures.\n"
-    "--out: keep the records of trials that do not reach their goals, or of all, in DIR.\n"
-    "--trace: print the journal, and the track once a second, between FROM and TO (s).\n"
-    "--check runs nothing: exit code 2 and a sentence where a parameter would be rejected.\n"
-    "--sensing gives guidance and feedback what a lidar, or a lidar and a depth camera, show.\n"
-    "--cache: MB of ~/.cache/navvi/worlds, which keeps map, start, goal and mesh of each world "
-    "and seed\n"
-    "for other trials; 0: nothing is kept.\n"
-    "A part is sim, nav, feedback, person, perception or trial, with the names of its node's "
-    "parameters, such as\n"
-    "nav/replan/hold_time:=3 or sim/goal:=3,4; `./navvi parameters` lists them.\n";
+constexpr std::size_t kMostTrials = 100000;
 
-constexpr std::int64_t kMostTrials = 100000;
-constexpr int kMostJobs = 256;
-constexpr int kMostMegabytes = 1000000;
+/// From one whole number to another.
+struct Span {
+  int from = 0;
+  int to = 0;
+};
 
-/// A closed loop, and what its record is to say.
-struct LoopTrialConfig {
+/// Of "3" or "3-8".
+Span span(const std::string& name, const std::string& text) {
+  std::smatch numbers;
+  Span out;
+  if (std::regex_match(text, numbers, std::regex("([0-9]{1,9})(-([0-9]{1,9}))?"))) {
+    out.from = std::stoi(numbers[1]);
+    out.to = numbers[3].matched ? std::stoi(numbers[3]) : out.from;
+    if (out.to >= out.from) return out;
+  }
+  throw ConfigError(name + " is \"" + text + "\"; allowed are whole numbers such as 3 or 3-8.");
+}
+
+/// What is run, a closed loop, and what its record is to say.
+struct BenchConfig {
+  std::string world = "training,easy", seeds = "1-3", profile = "default";
+  std::string out, records = "failed", trace;
+  int jobs = 1, cache = 512;
+  bool csv = false, check = false;
   navvi_people::loop::ClosedLoopConfig loop;
   trial::TrialNodeConfig trial;
 
+  BenchConfig() { trial.limit = 300.0; }
+
   void describe(navvi_config::Visitor& visit) {
+    using navvi_config::Any;
+    using navvi_config::OneOf;
+    using navvi_config::Range;
+    visit(world, "world", Any{}, "", "names or files, with commas between");
+    visit(seeds, "seeds", Any{}, "", "of worlds, starts and goals, such as 7 or 1-10");
+    visit(trial.limit, "limit", Range{1.0, 1e9}, "s", "of a trial");
+    visit(profile, "profile", Any{}, "", "of the parameters");
+    visit(jobs, "jobs", Range{1.0, 256.0}, "", "trials at a time");
+    visit(cache, "cache", Range{0.0, 1e6}, "MB",
+          "of ~/.cache/navvi/worlds, which keeps map, start, goal and mesh of each world and seed");
+    visit(csv, "csv", Any{}, "", "a row with all figures, as CSV");
+    visit(out, "out", Any{}, "", "folder of records; empty: none are kept");
+    visit(records, "records", OneOf{{"all", "failed", "none"}}, "",
+          "which are kept; failed: of trials that do not reach their goals");
+    visit(trace, "trace", Any{}, "s",
+          "print the journal, and the track once a second, such as 30-60; true: all");
+    visit(check, "check", Any{}, "", "run nothing, but reject what a trial would reject");
     loop.describe(visit);
     visit.group("trial", trial);
   }
 };
-
-/// Message for the user.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
-struct Span {
-  int from = 1;
-  int to = 3;
-};
-
-struct Options {
-  std::vector<std::string> worlds = {"training", "easy"};
-  Span seeds;
-  double limit = 300.0;
-  std::string profile = "default";
-  int jobs = 1;
-  int cache = 512;            ///< MB
-  std::optional<Span> trace;  ///< s
-  std::string out;            ///< folder of records; empty: none are kept
-  bool all_records = false;
-  std::vector<std::string> parameters;
-  bool csv = false;
-  bool check = false;
-  bool help = false;
-};
-
-int number(const std::string& option, const std::string& text, int least, int most = 1000000000) {
-  std::size_t used = 0;
-  int value = least - 1;
-  try {
-    value = std::stoi(text, &used);
-  } catch (const std::exception&) {
-  }
-  if (used != text.size() || value < least || value > most)
-    throw UsageError(option + " has \"" + text + "\"; allowed are whole numbers from " +
-                     std::to_string(least) + " to " + std::to_string(most) + ".");
-  return value;
-}
-
-/// "3" or "3-8".
-Span span(const std::string& option, const std::string& text) {
-  const std::size_t dash = text.find('-');
-  Span out;
-  out.from = number(option, text.substr(0, dash), 0);
-  out.to = dash == std::string::npos ? out.from : number(option, text.substr(dash + 1), out.from);
-  return out;
-}
 
 std::vector<std::string> list(const std::string& text) {
   std::vector<std::string> items;
@@ -123,83 +97,43 @@ std::vector<std::string> list(const std::string& text) {
   return items;
 }
 
-Options read_options(const std::vector<std::string>& words) {
-  Options out;
-  std::string records = "failed";
-  for (const std::string& word : words) {
-    const std::size_t equals = word.find('=');
-    const std::string option = word.substr(0, equals);
-    const std::string value = equals == std::string::npos ? "" : word.substr(equals + 1);
-    if (word.rfind("--", 0) != 0) {
-      out.parameters.push_back(word);
-    } else if (option == "--world") {
-      out.worlds = list(value);
-    } else if (option == "--seeds") {
-      out.seeds = span(option, value);
-    } else if (option == "--limit") {
-      out.limit = number(option, value, 1);
-    } else if (option == "--profile") {
-      out.profile = value;
-    } else if (option == "--sensing") {
-      out.parameters.push_back("sim/sensing:=" + value);
-    } else if (option == "--jobs") {
-      out.jobs = number(option, value, 1, kMostJobs);
-    } else if (option == "--cache") {
-      out.cache = number(option, value, 0, kMostMegabytes);
-    } else if (option == "--trace") {
-      out.trace = value.empty() ? Span{0, 1000000} : span(option, value);
-    } else if (option == "--out") {
-      out.out = value;
-    } else if (option == "--records") {
-      records = value;
-    } else if (option == "--csv") {
-      out.csv = true;
-    } else if (option == "--check") {
-      out.check = true;
-    } else if (option == "--help") {
-      out.help = true;
-    } else {
-      throw UsageError("\"" + word + "\" is not an option; allowed are:\n" + kUsage);
-    }
-  }
-  if (records != "all" && records != "failed" && records != "none")
-    throw UsageError("--records has \"" + records + "\"; allowed are all, failed and none.");
-  out.all_records = records == "all";
-  if (out.all_records && out.out.empty()) throw UsageError("--records=all needs --out=DIR.");
-  if (records == "none") out.out.clear();
-  if (out.trace && out.csv) throw UsageError("--csv is for rows, --trace for what happens.");
-  if (out.trace && out.jobs > 1)
-    throw UsageError("--trace tells of one trial after the other: it needs --jobs=1.");
-  const std::int64_t trials = (std::int64_t{out.seeds.to} - out.seeds.from + 1) *
-                              static_cast<std::int64_t>(out.worlds.size());
-  if (trials > kMostTrials)
-    throw UsageError("the worlds and seeds make " + std::to_string(trials) +
-                     " trials; allowed are " + std::to_string(kMostTrials) + ".");
-  return out;
-}
-
 std::string share(const std::string& package) {
   const std::string path = ros::package::getPath(package);
   if (path.empty())
-    throw UsageError("the package " + package + " is not found; source devel/setup.bash first.");
+    throw ConfigError("the package " + package + " is not found; source devel/setup.bash first.");
   return path;
 }
 
-LoopTrialConfig configured(const Options& options) {
-  LoopTrialConfig config;
+/// \param options  such as --jobs=2 and --csv, which are jobs:=2 and csv:=true, and parameters
+BenchConfig configured(const std::vector<std::string>& options) {
+  BenchConfig config;
+  std::vector<std::string> words;
+  for (const std::string& option : options) {
+    std::string word = std::regex_replace(option, std::regex("^--([^=]*)$"), "$1:=true");
+    word = std::regex_replace(word, std::regex("^--([^=]*)="), "$1:=");
+    if (word.rfind("sensing:=", 0) == 0) word = "sim/" + word;
+    if (word.find('/') < word.find(":="))
+      config.trial.parameters += (config.trial.parameters.empty() ? "" : " ") + word;
+    words.push_back(word);
+  }
+  const YAML::Node given = navvi_config::read_words(words);
+  if (given["profile"]) config.profile = given["profile"].as<std::string>();
   const auto overlay = [&](auto& part, const std::string& package) {
-    const std::string file = share(package) + "/config/" + options.profile + ".yaml";
+    const std::string file = share(package) + "/config/" + config.profile + ".yaml";
     navvi_config::read(part, navvi_config::load_yaml(file), file);
   };
   overlay(config.loop.sim, "navvi_sim");
   overlay(config.loop.nav, "navvi_nav");
   overlay(config.loop.feedback, "navvi_feedback");
-  config.trial.profile = options.profile;
-  config.trial.limit = options.limit;
-  navvi_config::read(config, navvi_config::read_words(options.parameters), "the command line");
+  config.trial.profile = config.profile;
+  navvi_config::read(config, given, "the command line");
   trial::check(config.trial);
-  for (const std::string& word : options.parameters)
-    config.trial.parameters += (config.trial.parameters.empty() ? "" : " ") + word;
+  if (config.records == "all" && config.out.empty())
+    throw ConfigError("records=all needs out=DIR.");
+  if (config.records == "none") config.out.clear();
+  if (!config.trace.empty() && config.trace != "true") (void)span("trace", config.trace);
+  if (!config.trace.empty() && (config.csv || config.jobs > 1))
+    throw ConfigError("trace needs jobs=1 and goes without csv: it prints trial after trial.");
   return config;
 }
 
@@ -242,7 +176,7 @@ void print_trace(const record::Trial& trial, const Span& span) {
   std::fflush(stdout);
 }
 
-record::Trial play(const LoopTrialConfig& config, const std::string& phrases,
+record::Trial play(const BenchConfig& config, const std::string& phrases,
                    const navvi_files::Cache* cache, const std::filesystem::path& folder) {
   ClosedLoop loop(config.loop, phrases, cache);
   LoopTrial trial(config.trial, loop, phrases);
@@ -256,21 +190,22 @@ record::Trial play(const LoopTrialConfig& config, const std::string& phrases,
 }
 
 /// The figures of a simulated trial, by name.
-record::Fields run_trial(const Options& options, LoopTrialConfig config,
-                         const std::string& phrases, const navvi_files::Cache* cache,
-                         const Task& task) {
+record::Fields run_trial(BenchConfig config, const std::string& phrases,
+                         const navvi_files::Cache* cache, const Task& task) {
   config.loop.sim.world = task.world;
   config.loop.sim.seed = task.seed;
+  const bool all = config.records == "all";
   std::filesystem::path folder;
-  if (!options.out.empty()) folder = std::filesystem::path(options.out) / name_of(task);
-  record::Trial trial = play(config, phrases, cache, options.all_records ? folder : "");
+  if (!config.out.empty()) folder = std::filesystem::path(config.out) / name_of(task);
+  record::Trial trial = play(config, phrases, cache, all ? folder : "");
   // The same trial once more: only one in many is kept, and it is the same bit for bit.
   const bool failed = trial.last("TRIAL_END")->fields.get("result") != "reached";
-  if (failed && !folder.empty() && !options.all_records) trial = play(config, phrases, cache, folder);
-  if (options.trace) print_trace(trial, *options.trace);
+  if (failed && !folder.empty() && !all) trial = play(config, phrases, cache, folder);
+  if (!config.trace.empty())
+    print_trace(trial, config.trace == "true" ? Span{0, 1000000} : span("trace", config.trace));
   record::Fields row;
   for (const Figure& figure : record::figures())
-    if (figure.kind == Figure::Kind::counted) row.set(figure.name, figure.of(trial, figure.name));
+    if (figure.kind == Figure::Kind::counted) row.set(figure.name, figure.of(trial));
   return row;
 }
 
@@ -298,28 +233,31 @@ void print_csv(const std::string& first, const Cell& cell) {
   std::cout << std::endl;
 }
 
-int run(const Options& options) {
-  const LoopTrialConfig config = configured(options);
-  if (options.check) return 0;
+int run(const BenchConfig& config) {
+  const Span span_of_seeds = span("seeds", config.seeds);
+  const auto seeds = static_cast<std::size_t>(span_of_seeds.to - span_of_seeds.from) + 1;
+  const std::vector<std::string> worlds = list(config.world);
+  if (worlds.size() * seeds > kMostTrials)
+    throw ConfigError("the worlds and seeds make " + std::to_string(worlds.size() * seeds) +
+                     " trials; allowed are " + std::to_string(kMostTrials) + ".");
+  if (config.check) return 0;
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
-  const auto cache = batch::world_cache(static_cast<std::uintmax_t>(options.cache));
-  const auto seeds = static_cast<std::size_t>(options.seeds.to - options.seeds.from) + 1;
+  const auto cache = batch::world_cache(static_cast<std::uintmax_t>(config.cache));
   const auto task_of = [&](std::size_t index) {
-    return Task{options.worlds[index / seeds],
-                options.seeds.from + static_cast<int>(index % seeds)};
+    return Task{worlds[index / seeds], span_of_seeds.from + static_cast<int>(index % seeds)};
   };
   int failed = 0;
   const auto title = [](const std::string& name) { return name; };
-  if (options.csv)
+  if (config.csv)
     print_csv("world,seed", title);
   else
     print_row("world", "seed", title);
   // A child a trial: a crash takes only its own trial away.
   record::run_in_children(
-      options.worlds.size() * seeds, static_cast<std::size_t>(options.jobs),
+      worlds.size() * seeds, static_cast<std::size_t>(config.jobs),
       [&](std::size_t index) {
         const std::string text =
-            run_trial(options, config, phrases, cache ? &*cache : nullptr, task_of(index)).format();
+            run_trial(config, phrases, cache ? &*cache : nullptr, task_of(index)).format();
         std::cout.flush();
         return text;
       },
@@ -329,12 +267,12 @@ int run(const Options& options) {
         const auto row = answer.good ? record::Fields::parse(answer.text) : std::nullopt;
         const std::string seed = std::to_string(task.seed);
         const auto cell = [&](const std::string& name) { return row->get(name); };
-        if (row && options.csv) {
+        if (row && config.csv) {
           print_csv(task.world + "," + seed, cell);
         } else if (row) {
           print_row(task.world, seed, cell);
         } else {
-          std::fprintf(options.csv ? stderr : stdout, "%-10s %4d  %s\n", task.world.c_str(),
+          std::fprintf(config.csv ? stderr : stdout, "%-10s %4d  %s\n", task.world.c_str(),
                        task.seed, answer.text.c_str());
           ++failed;
         }
@@ -346,14 +284,17 @@ int run(const Options& options) {
 }  // namespace navvi_study::bench
 
 int main(int argc, char** argv) {
+  using navvi_study::bench::BenchConfig;
   try {
-    const navvi_study::bench::Options options =
-        navvi_study::bench::read_options({argv + 1, argv + argc});
-    if (options.help) {
-      std::cout << navvi_study::bench::kUsage;
-      return 0;
-    }
-    return navvi_study::bench::run(options);
+    const std::vector<std::string> options{argv + 1, argv + argc};
+    if (options != std::vector<std::string>{"--help"})
+      return navvi_study::bench::run(navvi_study::bench::configured(options));
+    for (const navvi_config::Row& row : navvi_config::table<BenchConfig>())
+      if (row.key.find('/') == std::string::npos)
+        std::cout << "--" << row.key << '=' << row.default_value << "  " << row.help << '\n';
+    std::cout << "Parameters are given with their part (sim, nav, feedback, person, perception, "
+                 "trial), such as nav/replan/hold_time:=3; `./navvi parameters` lists them.\n";
+    return 0;
   } catch (const std::exception& error) {
     std::cerr << "navvi: " << error.what() << '\n';
     return 2;

@@ -160,27 +160,4 @@ std::vector<std::uint32_t> FloorWays::parts(double least) const {
   return part;
 }
 
-std::vector<Eigen::Vector2d> FloorWays::way_back(const Ways& ways, std::size_t cell,
-                                                 double least) const {
-  std::vector<std::size_t> cells;
-  for (; cell != kNone; cell = before(ways, cell)) cells.push_back(cell);
-  const auto sees = [&](std::size_t from, std::size_t to) {
-    return floor_.segment_clear(point_of(centre(from)), point_of(centre(to)), least);
-  };
-  std::vector<Eigen::Vector2d> way{centre(cells.front())};
-  for (std::size_t at = 0; at + 1 < cells.size();) {
-    std::size_t stride = 1;
-    std::size_t next = at + 1;  // the next cell of the way is always seen
-    while (next + stride < cells.size() && sees(cells[at], cells[next + stride])) {
-      next += stride;
-      stride *= 2;
-    }
-    for (; stride > 0; stride /= 2)
-      while (next + stride < cells.size() && sees(cells[at], cells[next + stride])) next += stride;
-    at = next;
-    way.push_back(centre(cells[at]));
-  }
-  return way;
-}
-
 }  // namespace navvi_sim::scenario

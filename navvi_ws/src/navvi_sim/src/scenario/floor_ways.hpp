@@ -72,10 +72,6 @@ class FloorWays {
   /// The cell before `cell` on the way: of several, the one nearest to the start, and then the
   /// first of the grid; kNone for the start.
   [[nodiscard]] std::size_t before(const Ways& ways, std::size_t cell) const;
-  /// From `cell` to where the ways begin, pulled taut: each line goes as far as it keeps a
-  /// clearance of `least`. m, in map
-  [[nodiscard]] std::vector<Eigen::Vector2d> way_back(const Ways& ways, std::size_t cell,
-                                                      double least) const;
   /// Numbers the parts of the floor that hang together by such ways, from 1; 0 for all other cells.
   [[nodiscard]] std::vector<std::uint32_t> parts(double least) const;
 

@@ -13,22 +13,14 @@ namespace navvi_sim::scenario {
 namespace {
 
 constexpr int kAttempts = 20;
-constexpr int kDraws = 50;            // of one end of a route, the other fixed, until its turns fit
 constexpr double kUsualRoute = 10.0;  // m
 constexpr double kLeastRoute = 5.0;   // m; less is hardly a trial
 constexpr double kNoRoute = 1.0;      // m; a robot has arrived there as it starts
-constexpr double kLeg = 1.0;          // m, least length of a leg that counts for turns
-constexpr double kTurn = navvi_types::radians(30.0);
-constexpr double kSpot = 0.01;      // m
-constexpr double kLookAhead = 2.0;  // m along the route, to which a drawn start looks
+constexpr double kSpot = 0.01;        // m
+constexpr double kLookAhead = 2.0;    // m along the route, to which a drawn start looks
 
 double length(const FloorWays::Ways& ways, std::size_t cell) {
   return static_cast<double>(ways.length[cell]);
-}
-
-std::vector<Eigen::Vector2d> reversed(std::vector<Eigen::Vector2d> way) {
-  std::reverse(way.begin(), way.end());
-  return way;
 }
 
 /// The name of the smallest thing with a shape over `at` and between two heights in map.
@@ -84,11 +76,10 @@ class ScenarioSampler {
   /// is asked for, a small world has some at 0.8 of the longest way to a free place.
   [[nodiscard]] Places ends_of(const FloorWays::Ways& ways, const Places& places);
   /// One of `places` to which a way leads as asked for; kNone if none was found.
-  [[nodiscard]] std::size_t try_draw(const FloorWays::Ways& ways, const Places& places,
-                                     double least);
+  [[nodiscard]] std::size_t try_draw(const FloorWays::Ways& ways, const Places& places);
   /// \param choices  of places, the better ones first
   [[nodiscard]] std::size_t draw(const FloorWays::Ways& ways, const std::vector<Places>& choices,
-                                 const std::string& what, double least);
+                                 const std::string& what);
 
   /// The cell of a start that was given. \throws WorldError if no robot can stand there
   [[nodiscard]] std::size_t checked(const Pose2& start) const;
@@ -96,11 +87,8 @@ class ScenarioSampler {
   [[nodiscard]] Pose2 looking_back(const FloorWays::Ways& ways, std::size_t cell) const;
   /// What was asked of the route, for a sentence.
   [[nodiscard]] std::string asked_for() const;
-  [[nodiscard]] bool asks_for_turns() const {
-    return config_.min_turns > 0 || config_.max_turns < ScenarioConfig::kAnyTurns;
-  }
   [[nodiscard]] bool asks_for_route() const {
-    return config_.min_route > 0.0 || config_.max_route > 0.0 || asks_for_turns();
+    return config_.min_route > 0.0 || config_.max_route > 0.0;
   }
 
   /// For what joins a place that was given, wherever that is.
@@ -117,7 +105,6 @@ class ScenarioSampler {
   FreePlaces places_;
   Random random_;
   double longest_ = 0.0;  ///< m, of the ways seen so far
-  int most_turns_ = 0;    ///< of the ways seen so far
 };
 
 StartAndGoal ScenarioSampler::with_start(const Pose2& start,
@@ -126,13 +113,11 @@ StartAndGoal ScenarioSampler::with_start(const Pose2& start,
   const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
   if (goal) {
     const std::size_t end = goal->allFinite() ? ways_.cell_at(*goal) : FloorWays::kNone;
-    if (end == FloorWays::kNone || !std::isfinite(ways.length[end])) return {start, *goal, 0.0, {}};
-    return {start, *goal, length(ways, end), reversed(ways_.way_back(ways, end, passable(root)))};
+    const bool joined = end != FloorWays::kNone && std::isfinite(ways.length[end]);
+    return {start, *goal, joined ? length(ways, end) : 0.0};
   }
-  const std::size_t end =
-      draw(ways, {places_.quiet(), places_.all(), anywhere()}, "goal", passable(root));
-  return {start, ways_.centre(end), length(ways, end),
-          reversed(ways_.way_back(ways, end, passable(root)))};
+  const std::size_t end = draw(ways, {places_.quiet(), places_.all(), anywhere()}, "goal");
+  return {start, ways_.centre(end), length(ways, end)};
 }
 
 StartAndGoal ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
@@ -141,14 +126,12 @@ StartAndGoal ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
   if (root == FloorWays::kNone || ways_.clearance(root) < config_.robot_radius) {
     // Navigation refuses such a goal; the start may then be anywhere.
     const Eigen::Vector2d place = ways_.centre(starts[random_.below(starts.size())]);
-    return {{place, 0.0}, goal, 0.0, {}};
+    return {{place, 0.0}, goal};
   }
   const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
   const std::size_t start =
-      draw(ways, {places_.away_from_movers(places_.quiet()), starts, anywhere()}, "start",
-           passable(root));
-  return {looking_back(ways, start), goal, length(ways, start),
-          ways_.way_back(ways, start, passable(root))};
+      draw(ways, {places_.away_from_movers(places_.quiet()), starts, anywhere()}, "start");
+  return {looking_back(ways, start), goal, length(ways, start)};
 }
 
 StartAndGoal ScenarioSampler::with_nothing() {
@@ -169,10 +152,9 @@ std::optional<StartAndGoal> ScenarioSampler::between(const Places& places) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const std::size_t root = places[random_.below(places.size())];
     const FloorWays::Ways ways = ways_.ways_from(root, clear());
-    const std::size_t start = try_draw(ways, starts, clear());
+    const std::size_t start = try_draw(ways, starts);
     if (start == FloorWays::kNone || (best && length(ways, start) <= best->route_length)) continue;
-    best = {looking_back(ways, start), ways_.centre(root), length(ways, start),
-            ways_.way_back(ways, start, clear())};
+    best = {looking_back(ways, start), ways_.centre(root), length(ways, start)};
     if (best->route_length >= enough) break;
   }
   return best;
@@ -202,11 +184,7 @@ std::string ScenarioSampler::asked_for() const {
   if (!asks_for_route()) return "";
   std::string words = " by a route of " + text(config_.min_route) + " m or more";
   if (config_.max_route > 0.0) words += " and up to " + text(config_.max_route) + " m";
-  if (asks_for_turns())
-    words += " with " + std::to_string(config_.min_turns) + " to " +
-             std::to_string(config_.max_turns) + " turns";
-  return words + " (the longest that was found has " + text(std::round(longest_)) +
-         " m, and routes had up to " + std::to_string(most_turns_) + " turns)";
+  return words + " (the longest that was found has " + text(std::round(longest_)) + " m)";
 }
 
 ScenarioSampler::Places ScenarioSampler::ends_of(const FloorWays::Ways& ways,
@@ -223,24 +201,15 @@ ScenarioSampler::Places ScenarioSampler::ends_of(const FloorWays::Ways& ways,
   });
 }
 
-std::size_t ScenarioSampler::try_draw(const FloorWays::Ways& ways, const Places& places,
-                                      double least) {
+std::size_t ScenarioSampler::try_draw(const FloorWays::Ways& ways, const Places& places) {
   const Places ends = ends_of(ways, places);
-  if (ends.empty()) return FloorWays::kNone;
-  if (!asks_for_turns()) return ends[random_.below(ends.size())];
-  for (int i = 0; i < kDraws; ++i) {
-    const std::size_t end = ends[random_.below(ends.size())];
-    const int count = turns(ways_.way_back(ways, end, least));
-    most_turns_ = std::max(most_turns_, count);
-    if (count >= config_.min_turns && count <= config_.max_turns) return end;
-  }
-  return FloorWays::kNone;
+  return ends.empty() ? FloorWays::kNone : ends[random_.below(ends.size())];
 }
 
 std::size_t ScenarioSampler::draw(const FloorWays::Ways& ways, const std::vector<Places>& choices,
-                                  const std::string& what, double least) {
+                                  const std::string& what) {
   for (const Places& places : choices) {
-    const std::size_t end = try_draw(ways, places, least);
+    const std::size_t end = try_draw(ways, places);
     if (end != FloorWays::kNone) return end;
   }
   throw WorldError("world '" + world_.name + "' has no free place for a " + what +
@@ -282,19 +251,6 @@ void ScenarioConfig::describe(navvi_config::Visitor& visit) {
   visit(max_route, "max_route", Range{0.0, 10000.0}, "m", "its greatest length; 0: any");
 }
 
-int turns(const std::vector<Eigen::Vector2d>& polyline) {
-  int count = 0;
-  std::optional<double> course;
-  for (std::size_t i = 1; i < polyline.size(); ++i) {
-    const Eigen::Vector2d leg = polyline[i] - polyline[i - 1];
-    if (leg.norm() < kLeg) continue;
-    const double next = std::atan2(leg.y(), leg.x());
-    if (course && std::abs(navvi_types::wrap(next - *course)) >= kTurn) ++count;
-    course = next;
-  }
-  return count;
-}
-
 StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::OccupancyMap& map,
                            const ScenarioConfig& config, std::uint64_t seed,
                            const std::optional<Pose2>& start,
@@ -303,10 +259,6 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
     throw WorldError("max_route is " + text(config.max_route) +
                      " m, less than min_route; allowed are " + text(config.min_route) +
                      " m or more, or 0 for any");
-  if (config.max_turns < config.min_turns)
-    throw WorldError("max_turns is " + std::to_string(config.max_turns) +
-                     ", less than min_turns; allowed are " + std::to_string(config.min_turns) +
-                     " or more");
   ScenarioSampler sampler(world, map, config, seed);
   StartAndGoal drawn = start  ? sampler.with_start(*start, goal)
                        : goal ? sampler.with_goal(*goal)

@@ -34,8 +34,6 @@ std::string to_bytes(const Course& course) {
   out.put(course.ends.start.yaw);
   put(out, course.ends.goal);
   out.put(course.ends.route_length);
-  out.put(std::uint64_t{course.ends.route.size()});
-  for (const Eigen::Vector2d& point : course.ends.route) put(out, point);
   out.put(std::string_view(course.ends.note));
   return out.bytes();
 }
@@ -48,8 +46,6 @@ std::optional<Course> from_bytes(std::string_view bytes) {
   out.ends.start.yaw = in.get<double>();
   out.ends.goal = get_point(in);
   out.ends.route_length = in.get<double>();
-  for (auto left = in.get<std::uint64_t>(); left > 0 && in.good(); --left)
-    out.ends.route.push_back(get_point(in));
   out.ends.note = in.get_text();
   return in.ends_well() ? std::optional(std::move(out)) : std::nullopt;
 }

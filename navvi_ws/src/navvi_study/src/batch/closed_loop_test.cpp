@@ -14,6 +14,7 @@
 
 #include "batch/loop_trial.hpp"
 #include "record/events.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_study::batch {
 namespace {
@@ -154,18 +155,14 @@ trial::TrialNodeConfig limited(double limit) {
 class ClosedLoopIn : public testing::Test {
  protected:
   ClosedLoopIn() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_loop_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     config_.sim.start = "-4,0.5,0";
     config_.sim.goal = "4,-0.5";
   }
-  ~ClosedLoopIn() override { fs::remove_all(folder_); }
 
   /// The figures of a trial of at most `limit` s, and `hash`, of the world's last state.
   record::Fields play(const std::string& world, double limit,
                       const std::string& name = "room.world") {
-    config_.sim.world = (folder_ / name).string();
-    std::ofstream(config_.sim.world) << world;
+    config_.sim.world = folder_.write(name, world);
     ClosedLoop loop(config_, phrases_);
     LoopTrial trial(limited(limit), loop, phrases_);
     sensing_ = Sensing();
@@ -173,11 +170,11 @@ class ClosedLoopIn : public testing::Test {
     trace_ = record::events_csv(trial.finish());
     record::Fields row;
     for (const record::Figure& figure : record::figures())
-      row.set(figure.name, figure.of(trial.finish(), figure.name));
+      row.set(figure.name, figure.of(trial.finish()));
     return row.set("hash", navvi_types::to_hex(loop.session().world().state_hash()));
   }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
   ClosedLoopConfig config_;
   std::string phrases_ = NAVVI_PHRASES;
   std::string trace_;  ///< events of the last trial

@@ -1,11 +1,22 @@
 #include "batch/loop_trial.hpp"
 
+#include <navvi_msgs/AppliedCommands.h>
+#include <navvi_msgs/Scenario.h>
+#include <navvi_msgs/StateHash.h>
+#include <navvi_msgs/TrialEvent.h>
+#include <rosbag/bag.h>
+#include <sensor_msgs/Joy.h>
+#include <tf2_msgs/TFMessage.h>
+
 #include <navvi_config/reader.hpp>
+#include <navvi_sim/description/world_hash.hpp>
+#include <navvi_sim/node/msg_conversion.hpp>
+#include <navvi_sim/setup/sim_node_config.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <stdexcept>
 #include <utility>
 
-#include "batch/loop_bag.hpp"
+#include "node/msg_conversion.hpp"
 #include "record/journal.hpp"
 #include "record/trial_folder.hpp"
 
@@ -27,7 +38,83 @@ void must(const navvi_files::Problem& problem) {
   if (problem) throw std::runtime_error(*problem);
 }
 
+/// As sim_node publishes it, but for the places, which no reader of a bag needs.
+navvi_types::Scenario scenario_of(const ClosedLoop& loop) {
+  const navvi_sim::setup::SimNodeConfig& sim = loop.config().sim;
+  navvi_types::Scenario scenario;
+  scenario.world = loop.world().name;
+  scenario.world_hash = navvi_sim::world_hash(loop.world());
+  scenario.seed = static_cast<std::uint64_t>(sim.seed);
+  scenario.goal = loop.scenario().goal;
+  scenario.start = loop.scenario().start;
+  scenario.floor = loop.world().floor_height;
+  scenario.parameters = navvi_sim::setup::recipe(sim, loop.scenario());
+  return scenario;
+}
+
 }  // namespace
+
+/// The bag of a closed loop: what its parts tell each other, under the names of a live session.
+class LoopBag {
+ public:
+  /// \throws rosbag::BagException if it cannot be written
+  LoopBag(const fs::path& path, const ClosedLoop& loop);
+
+  /// Call it after every step of the loop. \param rows  new ones of the journal
+  void watch(const std::vector<record::Row>& rows);
+
+ private:
+  template <typename Message>
+  void write(const char* topic, const Message& message) {
+    bag_.write(topic, ros::Time(loop_.time()), message);
+  }
+
+  const ClosedLoop& loop_;
+  rosbag::Bag bag_;
+  std::size_t hashes_ = 0;  ///< in the bag, as are
+  std::size_t commands_ = 0;
+  int drive_ = -1;  ///< the last state and reason
+};
+
+LoopBag::LoopBag(const fs::path& path, const ClosedLoop& loop)
+    : loop_(loop), bag_(path.string(), rosbag::bagmode::Write) {
+  bag_.setCompression(rosbag::compression::LZ4);
+  bag_.write("/navvi/scenario", ros::TIME_MIN, navvi_types::to_msg(scenario_of(loop)));
+}
+
+void LoopBag::watch(const std::vector<record::Row>& rows) {
+  const auto& told = loop_.told();
+  const navvi_sim::live::Session& session = loop_.session();
+  write("/odom", told.odometry);
+  if (loop_.config().sim.life.robot.imperfections.odometry_drifts()) {
+    tf2_msgs::TFMessage frames;
+    frames.transforms = {navvi_sim::node::odom_msg(session.world().now())};
+    write("/tf", frames);
+  }
+  for (const auto& contact : told.contacts) write("/navvi/contacts", contact);
+  if (told.proximity) write("/navvi/proximity", *told.proximity);
+  if (told.obstacles) write("/navvi/obstacles", *told.obstacles);
+  if (told.guidance) write("/navvi/guidance", *told.guidance);
+  for (const auto& cue : told.cues) write("/navvi/cues", cue);
+  const int drive = 256 * told.drive.state + told.drive.reason;
+  if (drive != drive_) write("/navvi/drive_state", told.drive);
+  drive_ = drive;
+  const navvi_people::people::StickAndButtons& hand = loop_.hand();
+  sensor_msgs::Joy joy;
+  joy.header.stamp = ros::Time(loop_.time());
+  joy.axes = {static_cast<float>(hand.left), static_cast<float>(hand.forward)};
+  joy.buttons = {hand.repeat ? 1 : 0};
+  write("/joy", joy);
+  for (; hashes_ < session.hashes().size(); ++hashes_)
+    write("/navvi/state_hash", navvi_types::to_msg(session.hashes()[hashes_]));
+  if (commands_ < session.commands().size()) {
+    write("/navvi/applied_commands",
+          navvi_sim::node::applied_commands_msg(session.commands(), commands_,
+                                                ros::Time(loop_.time())));
+    commands_ = session.commands().size();
+  }
+  for (const record::Row& row : rows) write("/navvi/events", node::to_msg(row));
+}
 
 LoopTrial::LoopTrial(trial::TrialNodeConfig config, const ClosedLoop& loop, fs::path phrases)
     : config_(std::move(config)),
@@ -100,7 +187,7 @@ void LoopTrial::begin() {
   begun_ = true;
   record::Fields fields = monitor_.place();
   if (bag_)
-    trial::add_conditions(fields, config_, LoopBag::scenario_of(loop_),
+    trial::add_conditions(fields, config_, scenario_of(loop_),
                           settings_of(loop_.config()), start_, "");
   fields.set("phrases", phrases_.filename().string());
   fields.set("pad", "simulated").set("audio", "simulated");

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "batch/loop_trial.hpp"
+#include "temp_folder.hpp"
 #include "trial/platform.hpp"
 
 namespace navvi_study::batch {
@@ -26,12 +27,9 @@ using navvi_people::loop::ClosedLoopConfig;
 class WorldCache : public testing::Test {
  protected:
   WorldCache() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_worlds_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     config_.sim.world = "easy";
     config_.sim.seed = 4;
   }
-  ~WorldCache() override { fs::remove_all(folder_); }
 
   /// All that is told in a trial of at most 40 s, and its row.
   [[nodiscard]] std::string play(const Cache* cache) const {
@@ -47,14 +45,8 @@ class WorldCache : public testing::Test {
     }
     return told.str() + record::events_csv(trial.finish()) + record::summary_csv(record::summarize(trial.finish()));
   }
-  [[nodiscard]] std::vector<fs::path> files() const {
-    std::vector<fs::path> out;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_))
-      if (entry.is_regular_file()) out.push_back(entry.path());
-    return out;
-  }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
   ClosedLoopConfig config_;
 };
 
@@ -63,9 +55,9 @@ TEST_F(WorldCache, leaves_each_trial_as_it_is_fresh_kept_damaged_and_of_another_
   const std::string fresh = play(nullptr);
   ASSERT_GT(fresh.size(), 10'000u);
   EXPECT_EQ(play(&cache), fresh);
-  EXPECT_EQ(files().size(), 2u) << "map, start and goal; mesh";
+  EXPECT_EQ(folder_.files().size(), 2u) << "map, start and goal; mesh";
   EXPECT_EQ(play(&cache), fresh);
-  for (const fs::path& file : files()) {
+  for (const fs::path& file : folder_.files()) {
     const auto middle = static_cast<std::streamoff>(fs::file_size(file) / 2);
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
     stream.seekg(middle);
@@ -76,7 +68,7 @@ TEST_F(WorldCache, leaves_each_trial_as_it_is_fresh_kept_damaged_and_of_another_
   EXPECT_EQ(play(&cache), fresh);
   const Cache other({folder_, 16, "another"});
   EXPECT_EQ(play(&other), fresh);
-  EXPECT_EQ(files().size(), 4u);
+  EXPECT_EQ(folder_.files().size(), 4u);
 }
 
 TEST_F(WorldCache, leaves_trials_as_they_are_that_two_processes_run_at_once) {
@@ -92,7 +84,7 @@ TEST_F(WorldCache, leaves_trials_as_they_are_that_two_processes_run_at_once) {
     ASSERT_EQ(::waitpid(id, &status, 0), id);
     EXPECT_EQ(status, 0);
   }
-  EXPECT_EQ(files().size(), 2u) << "no file that was written aside is left";
+  EXPECT_EQ(folder_.files().size(), 2u) << "no file that was written aside is left";
 }
 
 TEST_F(WorldCache, is_shared_by_conditions_that_do_not_shape_the_world) {
@@ -104,25 +96,25 @@ TEST_F(WorldCache, is_shared_by_conditions_that_do_not_shape_the_world) {
       "test");
   const std::string fresh = play(nullptr);
   EXPECT_EQ(play(&cache), fresh);
-  EXPECT_EQ(files().size(), 2u);
+  EXPECT_EQ(folder_.files().size(), 2u);
   navvi_config::read(config_, navvi_config::read_words({"nav/mesh/robot_radius:=0.36"}), "test");
   const std::string wider = play(nullptr);
   EXPECT_NE(wider, fresh);
   EXPECT_EQ(play(&cache), wider);
-  EXPECT_EQ(files().size(), 3u);
+  EXPECT_EQ(folder_.files().size(), 3u);
 }
 
 TEST_F(WorldCache, lies_in_the_users_cache_folder) {
-  ASSERT_EQ(::setenv("XDG_CACHE_HOME", folder_.c_str(), 1), 0);
+  ASSERT_EQ(::setenv("XDG_CACHE_HOME", folder_.string().c_str(), 1), 0);
   const auto cache = world_cache(16);
   ASSERT_TRUE(cache);
   cache->keep("key", "bytes");
-  ASSERT_EQ(files().size(), 1u);
-  EXPECT_EQ(files()[0].parent_path().parent_path(), folder_ / "navvi" / "worlds");
+  ASSERT_EQ(folder_.files().size(), 1u);
+  EXPECT_EQ(folder_.files()[0].parent_path().parent_path(), folder_ / "navvi" / "worlds");
   ASSERT_EQ(::setenv("XDG_CACHE_HOME", "relative", 1), 0);
   const char* home = std::getenv("HOME");
   const std::string before = home == nullptr ? "" : home;
-  ASSERT_EQ(::setenv("HOME", folder_.c_str(), 1), 0);
+  ASSERT_EQ(::setenv("HOME", folder_.string().c_str(), 1), 0);
   const auto at_home = world_cache(16);
   ASSERT_TRUE(at_home);
   at_home->keep("key", "bytes");

@@ -15,6 +15,8 @@
 namespace navvi_study::record {
 namespace {
 
+using Of = std::function<std::string(const Trial&)>;
+
 constexpr const char* kNothing = "n/a";
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,15 +49,10 @@ const Row* sums_of(const Trial& trial) {
   return row == trial.rows.rend() ? nullptr : &*row;
 }
 
-template <typename Test>
-std::string count_of(const Trial& trial, const Test& test) {
-  return std::to_string(std::count_if(trial.rows.begin(), trial.rows.end(), test));
-}
-
 std::string count_of(const Trial& trial, const std::string& type, const std::string& kind) {
-  return count_of(trial, [&](const Row& row) {
+  return std::to_string(std::count_if(trial.rows.begin(), trial.rows.end(), [&](const Row& row) {
     return row.type == type && (kind.empty() || row.fields.get("kind") == kind);
-  });
+  }));
 }
 
 /// \param share  [0, 1] of the values that are not above it
@@ -68,79 +65,85 @@ double quantile(std::vector<double> values, double share) {
   return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-double duration(const Trial& trial) { return std::max(1.0, trial.end() - trial.begin()); }
-
-// The record's own words.
-
-std::string as_begun(const Trial& trial, const std::string& name) {
-  return text_of(start_of(trial), name);
-}
-std::string as_summed(const Trial& trial, const std::string& name) {
-  return text_of(sums_of(trial), name);
-}
-
-std::string name_of(const Trial& trial, const std::string&) {
+std::string name_of(const Trial& trial) {
   return trial.rows.empty() ? kNothing : trial.rows.front().trial;
 }
-std::string started(const Trial& trial, const std::string&) {
-  return text_of(start_of(trial), "utc");
+
+double duration(const Trial& trial) { return std::max(1.0, trial.end() - trial.begin()); }
+
+// Makers of figures.
+
+/// A field of the first row of a type.
+Of first(const char* type, const std::string& field) {
+  return [=](const Trial& trial) { return text_of(trial.first(type), field); };
 }
-std::string bag(const Trial& trial, const std::string&) {
-  return text_of(trial.last("BAG_CLOSED"), "state");
+/// Of the last one, if there is one.
+Of last(const char* type, const char* field, const char* otherwise = kNothing) {
+  return [=](const Trial& trial) {
+    const Row* row = trial.last(type);
+    return row != nullptr ? row->fields.get(field) : otherwise;
+  };
+}
+Of as_begun(const std::string& field) { return first("TRIAL_START", field); }
+Of as_summed(const std::string& field) {
+  return [=](const Trial& trial) { return text_of(sums_of(trial), field); };
+}
+Of counts(const char* type) {
+  return [=](const Trial& trial) { return count_of(trial, type, ""); };
+}
+/// Of rows that pass the test.
+Of counts(bool (*test)(const Row&)) {
+  return [=](const Trial& trial) {
+    return std::to_string(std::count_if(trial.rows.begin(), trial.rows.end(), test));
+  };
+}
+Of value(double (*of)(const Trial&), int decimals = 3) {
+  return [=](const Trial& trial) { return text_of(of(trial), decimals); };
+}
+/// Of a record with a track.
+template <typename Number>
+Of tracked(Number (*of)(const Trial&), int decimals = 0) {
+  return [=](const Trial& trial) {
+    return trial.track.empty() ? kNothing : text_of(static_cast<double>(of(trial)), decimals);
+  };
+}
+Of said(int Speech::*count) {
+  return [=](const Trial& trial) { return std::to_string(speech_of(trial).*count); };
+}
+Of directed(int Directions::*count) {
+  return [=](const Trial& trial) {
+    const auto found = directions_of(trial);
+    return found ? std::to_string((*found).*count) : kNothing;
+  };
 }
 
-// The end.
+// The end and the way.
 
-std::string result(const Trial& trial, const std::string&) {
-  const Row* end = trial.last("TRIAL_END");
-  return end != nullptr ? end->fields.get("result") : "aborted";
-}
-std::string reason(const Trial& trial, const std::string&) {
-  const Row* end = trial.last("TRIAL_END");
-  return end != nullptr ? end->fields.get("reason") : "no_end";
-}
-std::string elapsed(const Trial& trial, const std::string&) {
+std::string elapsed(const Trial& trial) {
   if (const Row* reached = trial.last("GOAL_REACHED")) return reached->fields.get("elapsed");
   return start_of(trial) != nullptr ? text_of(trial.end() - trial.begin()) : kNothing;
 }
 
-// The way.
-
-std::string path_length(const Trial& trial, const std::string&) {
-  return text_of(sums_of(trial), "path_length");
-}
-std::string first_path_length(const Trial& trial, const std::string&) {
-  return text_of(trial.first("ROUTE"), "first_path_length");
-}
-std::string shortest_path(const Trial& trial, const std::string&) {
-  return text_of(trial.first("ROUTE"), "shortest_path");
-}
-std::string spl(const Trial& trial, const std::string& name) {
-  if (result(trial, name) != "reached") return text_of(0.0);
+double spl(const Trial& trial) {
+  const Row* end = trial.last("TRIAL_END");
+  if (end == nullptr || end->fields.get("result") != "reached") return 0.0;
   const double shortest = number_of(trial.first("ROUTE"), "shortest_path");
-  return text_of(shortest / std::max(number_of(sums_of(trial), "path_length"), shortest));
+  return shortest / std::max(number_of(sums_of(trial), "path_length"), shortest);
 }
-std::string replans(const Trial& trial, const std::string&) {
-  const Row* replan = trial.last("REPLAN");
-  return replan != nullptr ? replan->fields.get("count") : "0";
-}
-std::string reroutes(const Trial& trial, const std::string&) {
-  return text_of(sums_of(trial), "reroutes");
-}
-std::string stuck(const Trial& trial, const std::string&) { return count_of(trial, "STUCK", ""); }
 
-/// In a state of the guidance, which names the figure.
-std::string in_state(const Trial& trial, const std::string& name) {
-  const std::string state = name.substr(0, name.size() - 2);  // without _s
-  double sum = 0.0, since = 0.0;
-  bool inside = false;
-  for (const Row& row : trial.rows) {
-    if (row.type != "GUIDANCE") continue;
-    if (inside) sum += time_of(row) - since;
-    inside = row.fields.get("state") == state;
-    since = time_of(row);
-  }
-  return text_of(inside ? sum + trial.end() - since : sum);
+/// s, in a state of the guidance.
+Of in_state(const char* state) {
+  return [=](const Trial& trial) {
+    double sum = 0.0, since = 0.0;
+    bool inside = false;
+    for (const Row& row : trial.rows) {
+      if (row.type != "GUIDANCE") continue;
+      if (inside) sum += time_of(row) - since;
+      inside = row.fields.get("state") == state;
+      since = time_of(row);
+    }
+    return text_of(inside ? sum + trial.end() - since : sum);
+  };
 }
 
 // Contacts.
@@ -149,22 +152,17 @@ bool counts_contacts(const Trial& trial) {
   const Row* start = start_of(trial);
   return start == nullptr || start->fields.get("contacts", "counted") != "unknown";
 }
-std::string collisions(const Trial& trial, const char* kind) {
-  return counts_contacts(trial) ? count_of(trial, "COLLISION", kind) : "unknown";
+Of collisions(const char* kind) {
+  return [=](const Trial& trial) {
+    return counts_contacts(trial) ? count_of(trial, "COLLISION", kind) : "unknown";
+  };
 }
-std::string shelf_collisions(const Trial& trial, const std::string&) {
-  return collisions(trial, "shelf");
-}
-std::string obstacle_collisions(const Trial& trial, const std::string&) {
-  return collisions(trial, "obstacle");
-}
-std::string contacts(const Trial& trial, const std::string&) { return collisions(trial, ""); }
-std::string contacts_per_100m(const Trial& trial, const std::string&) {
+std::string contacts_per_100m(const Trial& trial) {
   const double driven = number_of(sums_of(trial), "path_length");
   if (!counts_contacts(trial) || driven == 0.0) return kNothing;
-  return text_of(100.0 * std::stod(collisions(trial, "")) / driven);
+  return text_of(100.0 * std::stod(count_of(trial, "COLLISION", "")) / driven);
 }
-std::string hits(const Trial& trial, const std::string&) {
+std::string hits(const Trial& trial) {
   std::map<std::string, int> counts;
   for (const Row& row : trial.rows)
     if (row.type == "COLLISION") ++counts[row.fields.get("class", row.fields.get("kind"))];
@@ -173,25 +171,20 @@ std::string hits(const Trial& trial, const std::string&) {
     text += (text.empty() ? "" : " ") + thing_class + " " + std::to_string(count);
   return !counts_contacts(trial) ? "unknown" : text.empty() ? "-" : text;
 }
-std::string near_obstacles(const Trial& trial, const std::string&) {
-  return count_of(trial, "PROXIMITY_ENTER", "obstacle");
-}
-std::string near_shelves(const Trial& trial, const std::string&) {
-  return count_of(trial, "PROXIMITY_ENTER", "shelf");
+Of near(const char* kind) {
+  return [=](const Trial& trial) { return count_of(trial, "PROXIMITY_ENTER", kind); };
 }
 bool is_mover(const std::string& thing_class) {
   return thing_class == "worker" || thing_class == "forklift" || thing_class == "pallet_robot";
 }
-std::string near_movers(const Trial& trial, const std::string&) {
-  return count_of(trial, [](const Row& row) {
-    return row.type == "PROXIMITY_ENTER" && is_mover(row.fields.get("class"));
-  });
+bool is_near_mover(const Row& row) {
+  return row.type == "PROXIMITY_ENTER" && is_mover(row.fields.get("class"));
 }
-std::string least_gap(const Trial& trial, const std::string&) {
+double least_gap(const Trial& trial) {
   double least = std::numeric_limits<double>::infinity();
   for (const TrackRow& row : trial.track)
     if (std::isfinite(row.gap)) least = std::min(least, std::max(0.0, static_cast<double>(row.gap)));
-  return text_of(least, 2);
+  return least;
 }
 
 /// How early a person was warned of what moves before it touched the robot, s.
@@ -221,101 +214,72 @@ std::vector<Warning> warnings_of(const Trial& trial) {
                        told_before(trial, row.fields.get("class"), time_of(row))});
   return found;
 }
-std::string late_warnings(const Trial& trial, const std::string&) {
+std::string late_warnings(const Trial& trial) {
   const auto all = warnings_of(trial);
   return std::to_string(std::count_if(all.begin(), all.end(), [](const Warning& one) {
     return one.felt < kFelt || one.told < kTold;
   }));
 }
-std::string warned(const Trial& trial, const std::string&) {
+std::string warned(const Trial& trial) {
   std::string text;
   for (const Warning& one : warnings_of(trial))
     text += (text.empty() ? "" : " ") + text_of(one.felt, 1) + "/" + text_of(one.told, 1);
   return text.empty() ? "-" : text;
 }
 
-// What was said.
+// What was said, and how the hands moved.
 
-std::string cues_per_minute(const Trial& trial, const std::string&) {
-  return text_of(60.0 * speech_of(trial).cues / duration(trial), 1);
+double cues_per_minute(const Trial& trial) {
+  return 60.0 * speech_of(trial).cues / duration(trial);
 }
-std::string words_per_minute(const Trial& trial, const std::string&) {
-  return text_of(60.0 * speech_of(trial).words / duration(trial), 1);
+double words_per_minute(const Trial& trial) {
+  return 60.0 * speech_of(trial).words / duration(trial);
 }
-std::string talk(const Trial& trial, const std::string&) {
-  return text_of(speech_of(trial).talk / duration(trial));
-}
-/// A count of Speech or Directions.
-template <auto Of, auto Member>
-std::string counted(const Trial& trial, const std::string&) {
-  if constexpr (std::is_same_v<decltype(Of(trial)), std::optional<Directions>>) {
-    const auto found = Of(trial);
-    return found ? std::to_string((*found).*Member) : kNothing;
-  } else {
-    return std::to_string(Of(trial).*Member);
-  }
-}
-std::string turns_per_minute(const Trial& trial, const std::string&) {
+double talk(const Trial& trial) { return speech_of(trial).talk / duration(trial); }
+std::string turns_per_minute(const Trial& trial) {
   const auto found = directions_of(trial);
   return found ? text_of(60.0 * found->turns / (trial.end() - trial.begin()), 1) : kNothing;
 }
-
-// How the hands and the robot moved.
-
-std::string led_turns(const Trial& trial, const std::string&) {
-  return trial.track.empty() ? kNothing : std::to_string(turns_of(trial).left.size());
+std::size_t led_turns(const Trial& trial) { return turns_of(trial).left.size(); }
+double residual(const Trial& trial) {
+  return navvi_types::degrees(quantile(turns_of(trial).left, 0.5));
 }
-std::string residual(const Trial& trial, const std::string&) {
-  return text_of(navvi_types::degrees(quantile(turns_of(trial).left, 0.5)), 1);
+double residual_90(const Trial& trial) {
+  return navvi_types::degrees(quantile(turns_of(trial).left, 0.9));
 }
-std::string residual_90(const Trial& trial, const std::string&) {
-  return text_of(navvi_types::degrees(quantile(turns_of(trial).left, 0.9)), 1);
-}
-std::string cue_to_action(const Trial& trial, const std::string&) {
-  return text_of(quantile(turns_of(trial).late, 0.5), 2);
-}
-std::string motors(const Trial& trial, const std::string&) {
+double cue_to_action(const Trial& trial) { return quantile(turns_of(trial).late, 0.5); }
+double motors(const Trial& trial) {
   double felt = 0.0;  // s
   for (std::size_t i = 0; i < trial.track.size(); ++i) {
     const TrackRow& row = trial.track[i];
     const double until = i + 1 < trial.track.size() ? trial.track[i + 1].time : trial.end();
     if (row.motor_left > 0.0F || row.motor_right > 0.0F) felt += until - row.time;
   }
-  return trial.track.empty() ? kNothing : text_of(felt / duration(trial));
+  return felt / duration(trial);
 }
-std::string speechless(const Trial& trial, const std::string&) {
-  return trial.track.empty() ? kNothing : std::to_string(stands_of(trial).speechless);
-}
-std::string still(const Trial& trial, const std::string&) {
-  return trial.track.empty() ? kNothing : text_of(stands_of(trial).longest, 1);
-}
-std::string still_since(const Trial& trial, const std::string&) {
-  return trial.track.empty() ? kNothing : text_of(stands_of(trial).since, 1);
-}
-std::string still_about(const Trial& trial, const std::string&) { return stands_of(trial).about; }
+int speechless(const Trial& trial) { return stands_of(trial).speechless; }
+double still(const Trial& trial) { return stands_of(trial).longest; }
+double still_since(const Trial& trial) { return stands_of(trial).since; }
+std::string still_about(const Trial& trial) { return stands_of(trial).about; }
 
 // What failed.
 
-std::string safe_stops(const Trial& trial, const std::string&) {
-  return count_of(trial, [](const Row& row) {
-    // Wheels that had not turned yet were held, not stopped.
-    return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes" &&
-           row.fields.get("held", "no") == "no";
-  });
+bool is_safe_stop(const Row& row) {
+  // Wheels that had not turned yet were held, not stopped.
+  return row.type == "SAFE_STOP" && row.fields.get("moved", "yes") == "yes" &&
+         row.fields.get("held", "no") == "no";
 }
-std::string device_losses(const Trial& trial, const std::string&) {
-  return count_of(trial, [](const Row& row) {
-    // That feedback_node was silent is no message of a bag.
-    return row.type == "DEVICE_LOST" && row.fields.get("device") != "feedback";
-  });
+bool is_device_loss(const Row& row) {
+  // That feedback_node was silent is no message of a bag.
+  return row.type == "DEVICE_LOST" && row.fields.get("device") != "feedback";
 }
-std::string sounds_played(const Trial& trial, const std::string& name) {
+std::string sounds_played(const Trial& trial) {
   const Row* start = start_of(trial);
   // A simulated person knows of sounds by message, also where no device plays them.
   const bool unheard = start != nullptr && start->fields.get("pad") == "simulated" &&
                        start->fields.get("audio") != "works" &&
                        start->fields.get("audio") != "simulated";
-  return unheard ? kNothing : as_summed(trial, name);
+  return unheard ? kNothing : text_of(sums_of(trial), "sounds_played");
 }
 
 const char* kSpl = "Anderson et al. 2018, On Evaluation of Embodied Navigation Agents";
@@ -325,88 +289,92 @@ std::vector<Figure> all_figures() {
   constexpr auto stated = Figure::Kind::stated, reported = Figure::Kind::reported;
   std::vector<Figure> all = {
       {"trial", "", "name of its folder", "", name_of, stated},
-      {"world", "", "name or file", "", as_begun, stated},
-      {"world_hash", "", "of the world that was built", "", as_begun, stated},
-      {"seed", "", "draws the world, start and goal", "", as_begun, stated},
-      {"operator", "", "what drives: pad, simulated, ...", "", as_begun, stated},
-      {"participant", "", "a pseudonym", "", as_begun, stated},
-      {"profile", "", "of the parameters", "", as_begun, stated},
-      {"parameters", "", "that were set besides the profile's", "", as_begun, stated},
-      {"version", "", "of NavVI, with the commit", "", as_begun, stated},
-      {"audio", "", "works, missing, off or unknown", "", as_begun, stated},
-      {"pad", "", "likewise; simulated where no person drives", "", as_begun, stated},
+      {"world", "", "name or file", "", as_begun("world"), stated},
+      {"world_hash", "", "of the world that was built", "", as_begun("world_hash"), stated},
+      {"seed", "", "draws the world, start and goal", "", as_begun("seed"), stated},
+      {"operator", "", "what drives: pad, simulated, ...", "", as_begun("operator"), stated},
+      {"participant", "", "a pseudonym", "", as_begun("participant"), stated},
+      {"profile", "", "of the parameters", "", as_begun("profile"), stated},
+      {"parameters", "", "that were set besides the profile's", "", as_begun("parameters"), stated},
+      {"version", "", "of NavVI, with the commit", "", as_begun("version"), stated},
+      {"audio", "", "works, missing, off or unknown", "", as_begun("audio"), stated},
+      {"pad", "", "likewise; simulated where no person drives", "", as_begun("pad"), stated},
   };
   // Where the trial stands in a study, and on what it ran.
   for (const char* name : {"study", "plan", "group", "condition", "condition_order", "phase",
                            "session", "repeat", "attempt", "replaces", "cpu", "compiler", "bullet",
                            "audio_device", "voice", "pad_name"})
-    all.push_back({name, "", "as TRIAL_START has it", "", as_begun, stated});
+    all.push_back({name, "", "as TRIAL_START has it", "", as_begun(name), stated});
   const std::vector<Figure> counted_ones = {
-      {"started_utc", "", "ISO 8601", "", started, stated},
-      {"result", "", "reached, timeout, refused, aborted or invalid", "", result},
-      {"reason", "", "of the result", "", reason},
+      {"started_utc", "", "ISO 8601", "", as_begun("utc"), stated},
+      {"result", "", "reached, timeout, refused, aborted or invalid", "",
+       last("TRIAL_END", "result", "aborted")},
+      {"reason", "", "of the result", "", last("TRIAL_END", "reason", "no_end")},
       {"elapsed_s", "s", "simulated time from start to goal, or to the end", kPaper, elapsed},
-      {"shelf_collision_count", "", "collisions with shelves", kPaper, shelf_collisions},
+      {"shelf_collision_count", "", "collisions with shelves", kPaper, collisions("shelf")},
       {"obstacle_collision_count", "", "collisions with everything else", kPaper,
-       obstacle_collisions},
-      {"contacts", "", "collisions with anything", "", contacts},
+       collisions("obstacle")},
+      {"contacts", "", "collisions with anything", "", collisions("")},
       {"contacts_per_100m", "", "collisions per 100 m driven", "", contacts_per_100m},
       {"hits", "", "collisions by class", "", hits},
-      {"path_length_m", "m", "way driven", "", path_length},
-      {"first_path_length_m", "m", "of the first path", "", first_path_length},
+      {"path_length_m", "m", "way driven", "", as_summed("path_length")},
+      {"first_path_length_m", "m", "of the first path", "", first("ROUTE", "first_path_length")},
       {"shortest_path_m", "m", "of the shortest path when the first one was planned", "",
-       shortest_path},
-      {"spl", "", "shortest over driven way where the goal was reached, else 0", kSpl, spl},
+       first("ROUTE", "shortest_path")},
+      {"spl", "", "shortest over driven way where the goal was reached, else 0", kSpl, value(spl)},
       {"obstacle_proximity_count", "", "times that an obstacle came within 5 m", kPaper,
-       near_obstacles},
-      {"shelf_proximity_count", "", "times that a shelf came within 1 m", kPaper, near_shelves},
+       near("obstacle")},
+      {"shelf_proximity_count", "", "times that a shelf came within 1 m", kPaper, near("shelf")},
       {"mover_proximity_count", "", "times that a worker or vehicle came within 5 m", "",
-       near_movers},
-      {"least_gap_m", "m", "from the hull to anything", "", least_gap},
+       counts(is_near_mover)},
+      {"least_gap_m", "m", "from the hull to anything", "", value(least_gap, 2)},
       {"late_warnings", "", "contacts with movers that were felt < 3 s or named < 2 s before", "",
        late_warnings},
       {"warned", "", "s felt/named before each contact with a mover", "", warned},
-      {"stuck_count", "", "times that a cue reports being stuck", "", stuck},
-      {"replan_count", "", "times that the path was searched again", "", replans},
+      {"stuck_count", "", "times that a cue reports being stuck", "", counts("STUCK")},
+      {"replan_count", "", "times that the path was searched again", "",
+       last("REPLAN", "count", "0")},
       {"reroute_count", "", "times that the path was replaced by one that leads elsewhere", "",
-       reroutes},
-      {"safe_stop_count", "", "times that the wheels were stopped for safety", "", safe_stops},
-      {"device_loss_count", "", "losses of pad, audio or voice", "", device_losses},
-      {"cues_spoken", "", "sentences", "", as_summed},
+       as_summed("reroutes")},
+      {"safe_stop_count", "", "times that the wheels were stopped for safety", "",
+       counts(is_safe_stop)},
+      {"device_loss_count", "", "losses of pad, audio or voice", "", counts(is_device_loss)},
+      {"cues_spoken", "", "sentences", "", as_summed("cues_spoken")},
       {"sounds_played", "", "short sounds", "", sounds_played},
-      {"patterns_felt", "", "patterns of the motors", "", as_summed},
-      {"cues_per_min", "1/min", "sentences", "", cues_per_minute},
-      {"words_per_min", "1/min", "words", "", words_per_minute},
-      {"talk", "", "share of the time in which something is said", "", talk},
+      {"patterns_felt", "", "patterns of the motors", "", as_summed("patterns_felt")},
+      {"cues_per_min", "1/min", "sentences", "", value(cues_per_minute, 1)},
+      {"words_per_min", "1/min", "words", "", value(words_per_minute, 1)},
+      {"talk", "", "share of the time in which something is said", "", value(talk)},
       {"repeats", "", "times that a sentence was said again within 10 s, unasked", "",
-       counted<speech_of, &Speech::repeats>},
-      {"waits", "", "unasked words to wait or stop", "", counted<speech_of, &Speech::waits>},
-      {"hasty", "", "of these, followed by another sentence within 2 s", "",
-       counted<speech_of, &Speech::hasty>},
+       said(&Speech::repeats)},
+      {"waits", "", "unasked words to wait or stop", "", said(&Speech::waits)},
+      {"hasty", "", "of these, followed by another sentence within 2 s", "", said(&Speech::hasty)},
       {"at_odds", "", "times that straight on and a thing ahead were said within 2 s", "",
-       counted<speech_of, &Speech::at_odds>},
+       said(&Speech::at_odds)},
       {"turns_per_min", "1/min", "changes of the announced hour", "", turns_per_minute},
       {"flips", "", "directions that contradict the one just before", "",
-       counted<directions_of, &Directions::flips>},
+       directed(&Directions::flips)},
       {"misled", "", "turns that are not the ones announced for their corners", "",
-       counted<directions_of, &Directions::misled>},
+       directed(&Directions::misled)},
       {"reversed", "", "directions 4 hours or more from one within 4 s before", "",
-       counted<directions_of, &Directions::reversed>},
-      {"following_s", "s", "in that state of the guidance", "", in_state},
-      {"blocked_s", "s", "in that state of the guidance", "", in_state},
-      {"make_room_s", "s", "in that state of the guidance", "", in_state},
-      {"no_route_s", "s", "in that state of the guidance", "", in_state},
-      {"off_mesh_s", "s", "in that state of the guidance", "", in_state},
+       directed(&Directions::reversed)},
+      {"following_s", "s", "in that state of the guidance", "", in_state("following")},
+      {"blocked_s", "s", "in that state of the guidance", "", in_state("blocked")},
+      {"make_room_s", "s", "in that state of the guidance", "", in_state("make_room")},
+      {"no_route_s", "s", "in that state of the guidance", "", in_state("no_route")},
+      {"off_mesh_s", "s", "in that state of the guidance", "", in_state("off_mesh")},
       {"led_turns", "", "turns on the spot of more than 15 deg, with somewhere to steer", "",
-       led_turns},
-      {"residual_deg", "deg", "what these left, median", "", residual},
-      {"residual_90_deg", "deg", "what a tenth of these exceed", "", residual_90},
+       tracked(led_turns)},
+      {"residual_deg", "deg", "what these left, median", "", value(residual, 1)},
+      {"residual_90_deg", "deg", "what a tenth of these exceed", "", value(residual_90, 1)},
       {"cue_to_action_s", "s", "from a cue that asks for a turn to the turn, median", "",
-       cue_to_action},
-      {"motors", "", "share of the time in which a motor turns", "", motors},
-      {"speechless", "", "pushes in vain for 3 s without a word or a sound", "", speechless},
-      {"still_s", "s", "the longest stay within 0.3 m", "", still},
-      {"still_since_s", "s", "from the start to the begin of that stay", "", still_since},
+       value(cue_to_action, 2)},
+      {"motors", "", "share of the time in which a motor turns", "", tracked(motors, 3)},
+      {"speechless", "", "pushes in vain for 3 s without a word or a sound", "",
+       tracked(speechless)},
+      {"still_s", "s", "the longest stay within 0.3 m", "", tracked(still, 1)},
+      {"still_since_s", "s", "from the start to the begin of that stay", "",
+       tracked(still_since, 1)},
       {"still_about", "", "what was about at its end", "", still_about},
   };
   all.insert(all.end(), counted_ones.begin(), counted_ones.end());
@@ -414,18 +382,21 @@ std::vector<Figure> all_figures() {
     for (const char* part : {"p50", "p99", "max"})
       all.push_back({std::string(chain) + "_" + part + "_ms", "ms",
                      std::string("how long the person waited: ") + chain + ", " + part, "",
-                     as_summed, reported});
+                     as_summed(std::string(chain) + "_" + part + "_ms"), reported});
   const std::vector<Figure> last_ones = {
       {"stopping_delay_s", "s", "that the person takes to stop a turn, as learnt last", "",
-       as_summed, reported},
-      {"stopping_spread_s", "s", "its standard deviation", "", as_summed, reported},
+       as_summed("stopping_delay_s"), reported},
+      {"stopping_spread_s", "s", "its standard deviation", "", as_summed("stopping_spread_s"),
+       reported},
       {"turn_error_rad", "rad", "left of turns that a sound led, mean of the latest", "",
-       as_summed, reported},
-      {"words_lead", "", "yes where words had taken over, as that was too much", "", as_summed, reported},
-      {"missed_messages", "", "messages that were lost on their way", "", as_summed},
-      {"state_step", "", "of the world's last state", "", as_summed},
-      {"state_hash", "", "of the world's last state", "", as_summed},
-      {"bag", "", "ok, bad or none", "", bag, stated},
+       as_summed("turn_error_rad"), reported},
+      {"words_lead", "", "yes where words had taken over, as that was too much", "",
+       as_summed("words_lead"), reported},
+      {"missed_messages", "", "messages that were lost on their way", "",
+       as_summed("missed_messages")},
+      {"state_step", "", "of the world's last state", "", as_summed("state_step")},
+      {"state_hash", "", "of the world's last state", "", as_summed("state_hash")},
+      {"bag", "", "ok, bad or none", "", last("BAG_CLOSED", "state"), stated},
   };
   all.insert(all.end(), last_ones.begin(), last_ones.end());
   return all;
@@ -471,7 +442,7 @@ const std::vector<Figure>& figures() {
 Summary summarize(const Trial& trial) {
   Summary summary;
   for (const Figure& figure : figures())
-    summary.emplace_back(figure.name, figure.of(trial, figure.name));
+    summary.emplace_back(figure.name, figure.of(trial));
   return summary;
 }
 

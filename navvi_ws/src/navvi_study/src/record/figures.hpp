@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,7 @@ struct Figure {
   std::string unit;  ///< empty: a word or a number of times
   std::string meaning;
   std::string source;  ///< publication; empty where there is none
-  std::string (*of)(const Trial& trial, const std::string& name);  ///< "n/a" where it is not known
+  std::function<std::string(const Trial&)> of;  ///< "n/a" where it is not known
   enum class Kind { counted, stated, reported } kind = Kind::counted;
 };
 

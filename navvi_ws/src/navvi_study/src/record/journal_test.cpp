@@ -12,6 +12,7 @@
 
 #include "record/figures.hpp"
 #include "record/trial_folder.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_study::record {
 namespace {
@@ -20,12 +21,6 @@ namespace fs = std::filesystem;
 
 class Folder : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "navvi_journal_XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(path_); }
-
   [[nodiscard]] fs::path journal() const { return path_ / "journal.csv"; }
   [[nodiscard]] std::string bytes() const { return navvi_files::read_file(journal()).value_or(""); }
   [[nodiscard]] Journal open(
@@ -48,7 +43,8 @@ class Folder : public testing::Test {
     ASSERT_FALSE(navvi_files::write_atomically(journal(), text).has_value());
   }
 
-  fs::path path_;
+  navvi_test::TempFolder folder_;
+  const fs::path& path_ = folder_;
 };
 
 using AJournal = Folder;

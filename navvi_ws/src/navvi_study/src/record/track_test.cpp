@@ -2,13 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
+#include "temp_folder.hpp"
 
 namespace navvi_study::record {
 namespace {
-
-namespace fs = std::filesystem;
 
 Track track_of(std::size_t rows) {
   Track track(rows);
@@ -36,15 +33,12 @@ TEST(Track, reads_back_and_lacks_only_a_row_that_was_cut) {
 }
 
 TEST(Track, that_grows_is_the_same_as_one_written_at_once) {
-  std::string pattern = (fs::temp_directory_path() / "navvi_track_XXXXXX").string();
-  const fs::path folder = mkdtemp(pattern.data());
+  const navvi_test::TempFolder folder;
   const Track all = track_of(7);
   TrackFile file(folder);
   EXPECT_FALSE(file.append({all.begin(), all.begin() + 4}));
   EXPECT_FALSE(file.append({all.begin() + 4, all.end()}));
-  std::ifstream in(folder / "track.npy", std::ios::binary);
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), track_npy(all));
-  fs::remove_all(folder);
+  EXPECT_EQ(folder.text("track.npy"), track_npy(all));
 }
 
 TEST(Track, that_cannot_be_written_is_a_sentence) {

@@ -1,12 +1,12 @@
 #include "trial/bag_watch.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <chrono>
-#include <fstream>
 #include <functional>
 #include <thread>
+
+#include "temp_folder.hpp"
 
 namespace navvi_study::trial {
 namespace {
@@ -15,16 +15,9 @@ namespace fs = std::filesystem;
 
 class Bag : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "navvi_bag_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// A recorder that runs `script`; its third argument is the bag.
   [[nodiscard]] std::unique_ptr<BagRecorder> recorder(const std::string& script) const {
-    const fs::path program = folder_ / "record";
-    std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
+    const fs::path program = folder_.write("record", "#!/bin/sh\n" + script + "\n");
     fs::permissions(program, fs::perms::owner_all);
     return std::make_unique<BagRecorder>(folder_ / "trial.bag", "recorder",
                                          std::vector<std::string>{}, program.string());
@@ -36,7 +29,7 @@ class Bag : public testing::Test {
     return done();
   }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
 };
 
 TEST_F(Bag, that_nobody_wants_is_soon_ready_and_never_lost) {

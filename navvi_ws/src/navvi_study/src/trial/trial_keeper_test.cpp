@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "record/trial_folder.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_study::trial {
 namespace {
@@ -19,17 +20,16 @@ namespace {
 namespace fs = std::filesystem;
 using State = Guidance::State;
 
+const Scenario kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
+
 /// A keeper in a world of its own, whose clocks run together.
 class Trials : public testing::Test {
  protected:
   Trials() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_keeper_XXXXXX").string();
-    config_.out = mkdtemp(pattern.data());
+    config_.out = folder_.string();
     config_.record = false;
     config_.operator_kind = "keyboard";
   }
-  ~Trials() override { fs::remove_all(config_.out); }
-
   void begin() {
     TrialKeeper::Outlets outlets;
     outlets.publish = [this](const record::Row& row) {
@@ -44,8 +44,7 @@ class Trials : public testing::Test {
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
     outlets.settings = [this] { return settings_; };
     outlets.start_recorder = [this](const fs::path& bag) {
-      const fs::path program = fs::path(config_.out) / "record";
-      std::ofstream(program) << "#!/bin/sh\nexec sleep 60\n";
+      const fs::path program = folder_.write("record", "#!/bin/sh\nexec sleep 60\n");
       fs::permissions(program, fs::perms::owner_all);
       return std::make_unique<BagRecorder>(bag, "recorder", std::vector<std::string>{},
                                            program.string());
@@ -71,6 +70,17 @@ class Trials : public testing::Test {
     report.goal = goal;
     report.plans = plans_;
     keeper_->take(report, now());
+  }
+  /// With a world that asks for a trial.
+  void offer() {
+    begin();
+    keeper_->take(kScenario, now());
+  }
+  /// For a second, so that it runs, and a second of it.
+  void run() {
+    offer();
+    live(1.0);
+    live(1.0, State::following, kScenario.goal);
   }
   /// So many s in which all nodes report.
   void live(double seconds, State state = State::no_goal,
@@ -109,6 +119,7 @@ class Trials : public testing::Test {
     return std::find(events_.begin(), events_.end(), type) != events_.end();
   }
 
+  navvi_test::TempFolder folder_;
   TrialNodeConfig config_;
   std::unique_ptr<TrialKeeper> keeper_;
   double time_ = 1.0;     // s, of ROS
@@ -127,8 +138,6 @@ class Trials : public testing::Test {
   Settings settings_{{"sim/seed", "3"}};
 };
 
-const Scenario kScenario{"hall", "0123456789abcdef", 7, {5.0, 2.0}};
-
 TEST_F(Trials, wait_for_every_part_and_name_what_is_missing) {
   begin();
   wait(6.0);
@@ -142,8 +151,7 @@ TEST_F(Trials, wait_for_every_part_and_name_what_is_missing) {
 }
 
 TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(1.0);
   ASSERT_FALSE(goals_.empty());
   EXPECT_EQ(goals_.front().x(), 5.0);
@@ -163,8 +171,7 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
 }
 
 TEST_F(Trials, leave_a_track_that_grows_while_they_run_and_figures_of_it) {
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(3.0);
   live(3.0, State::following, kScenario.goal);
   keeper_->take(Hands{now().ros_ns, 0.5, 0.0, false}, now());
@@ -197,8 +204,7 @@ TEST_F(Trials, name_another_clock_while_they_run_and_leave_it_out_of_the_events)
 }
 
 TEST_F(Trials, T4_are_invalid_where_the_guide_arrives_and_the_robot_does_not) {
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(1.0);
   live(20.0, State::following, kScenario.goal);
   elsewhere_ = true;
@@ -274,10 +280,7 @@ TEST_F(Trials, are_to_a_goal_that_was_chosen_while_the_one_before_was_closed) {
 }
 
 TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   const Eigen::Vector2d bad(500.0, 0.0);
   keeper_->take_goal(bad, now());
   goals_.clear();
@@ -295,8 +298,7 @@ TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
 /// A newer stamp would be the person's second ask, by which they are led toward the unseen.
 TEST_F(Trials, send_a_goal_again_with_the_stamp_of_the_persons_message_and_the_worlds_with_none) {
   config_.once = false;
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(5.0);
   ASSERT_GE(goals_.size(), 2U);
   EXPECT_EQ(stamps_, std::vector<std::int64_t>(goals_.size(), 0));
@@ -334,10 +336,7 @@ TEST_F(Trials, that_begin_with_a_goal_which_was_refused_wait_for_what_is_said_of
 
 TEST_F(Trials, of_a_study_end_when_anybody_else_sets_a_goal) {
   config_.locked = true;
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   keeper_->take_goal({3.0, 0.0}, now());
   live(9.0, State::following, kScenario.goal);
   EXPECT_NE(content("summary.csv").find(",aborted,goal_changed,"), std::string::npos)
@@ -346,8 +345,7 @@ TEST_F(Trials, of_a_study_end_when_anybody_else_sets_a_goal) {
 
 TEST_F(Trials, P3_of_a_study_record_each_parameter_that_is_set_from_outside) {
   config_.locked = true;
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(1.0);
   live(2.0, State::following, kScenario.goal);
   EXPECT_FALSE(happened("PARAMETER_SET"));
@@ -362,8 +360,7 @@ TEST_F(Trials, P3_of_a_study_record_each_parameter_that_is_set_from_outside) {
 TEST_F(Trials, of_a_study_name_their_place_in_it_and_on_what_they_ran) {
   config_.study.condition = "no_touch";
   config_.study.order = 2;
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(1.0);
   const std::string journal = content("journal.csv");
   EXPECT_NE(
@@ -394,8 +391,7 @@ TEST_F(Trials, that_are_to_begin_forget_a_goal_that_is_refused) {
 TEST_F(Trials, do_not_wait_for_ever_for_a_simulated_operator_to_begin) {
   config_.press_to_start = true;
   config_.operator_kind = "simulated";
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(62.0);
   EXPECT_TRUE(keeper_->done());
   EXPECT_EQ(keeper_->exit_code(), 3);
@@ -403,8 +399,7 @@ TEST_F(Trials, do_not_wait_for_ever_for_a_simulated_operator_to_begin) {
 }
 
 TEST_F(Trials, name_what_was_set_and_every_device_and_the_hour_of_each_row) {
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   DeviceReport pad{now().ros_ns, "pad", DeviceState::works, {{"name", "DualSense"}}};
   pad.traits["firmware"] = "552";
   keeper_->take(pad, now());
@@ -419,8 +414,7 @@ TEST_F(Trials, name_what_was_set_and_every_device_and_the_hour_of_each_row) {
 }
 
 TEST_F(Trials, S5_keep_the_order_of_their_hours_when_the_clock_is_set) {
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(1.0);
   set_ = -3600'000'000'000;
   live(2.0, State::following, kScenario.goal);
@@ -438,8 +432,7 @@ TEST_F(Trials, S5_keep_the_order_of_their_hours_when_the_clock_is_set) {
 }
 
 TEST_F(Trials, are_aborted_when_the_guidance_never_takes_the_goal) {
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(60.0);
   EXPECT_TRUE(keeper_->done());
   EXPECT_GT(goals_.size(), 1U);
@@ -447,10 +440,7 @@ TEST_F(Trials, are_aborted_when_the_guidance_never_takes_the_goal) {
 }
 
 TEST_F(Trials, are_aborted_when_the_robot_is_heard_of_no_more) {
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   wait(30.0);
   EXPECT_TRUE(keeper_->done());
   EXPECT_NE(content("summary.csv").find("aborted"), std::string::npos);
@@ -467,10 +457,7 @@ TEST_F(Trials, that_have_not_begun_leave_nothing_behind_when_stopped) {
 }
 
 TEST_F(Trials, that_run_are_closed_within_two_seconds_when_stopped) {
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   keeper_->stop(now());
   EXPECT_FALSE(keeper_->done());
   wait(2.0);
@@ -498,8 +485,7 @@ TEST_F(Trials, follow_on_one_another_where_more_than_one_is_wanted) {
 
 TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   config_.require = {"speech"};
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(3.0);
   EXPECT_TRUE(events_.empty());
   for (const char* device : {"audio", "speech"})
@@ -510,8 +496,7 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
 
 TEST_F(Trials, A1_do_not_begin_before_the_guide_has_reported) {
   feedback_ = false;
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(6.0);
   EXPECT_TRUE(events_.empty());
   EXPECT_NE(said_.find("waiting for a report of feedback_node"), std::string::npos) << said_;
@@ -521,20 +506,14 @@ TEST_F(Trials, A1_do_not_begin_before_the_guide_has_reported) {
 }
 
 TEST_F(Trials, S1_that_a_crash_has_stopped_do_not_say_that_a_hand_did) {
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   keeper_->stop(now(), "simulator_lost");
   wait(2.0);
   EXPECT_NE(content("summary.csv").find(",aborted,simulator_lost,"), std::string::npos);
 }
 
 TEST_F(Trials, S1_that_are_stopped_while_a_part_is_silent_name_that_part) {
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   feedback_ = false;
   live(1.5, State::following, kScenario.goal);
   keeper_->stop(now());
@@ -544,8 +523,7 @@ TEST_F(Trials, S1_that_are_stopped_while_a_part_is_silent_name_that_part) {
 
 TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_failed) {
   feedback_ = false;
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   keeper_->take(DeviceReport{now().ros_ns, "audio", DeviceState::works}, now());
   live(0.8, State::following, kScenario.goal);
   ASSERT_TRUE(happened("TRIAL_START"));
@@ -566,8 +544,7 @@ TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_f
 
 TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
   config_.record = true;
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(1.0);
   keeper_->recorder_listens(now());
   live(2.0);
@@ -589,8 +566,7 @@ TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
 }
 
 TEST_F(Trials, go_on_where_their_own_node_was_halted_for_a_while) {
-  begin();
-  keeper_->take(kScenario, now());
+  offer();
   live(2.0, State::following, kScenario.goal);
   ASSERT_TRUE(happened("TRIAL_START"));
   time_ += 20.0;
@@ -602,10 +578,7 @@ TEST_F(Trials, go_on_where_their_own_node_was_halted_for_a_while) {
 }
 
 TEST_F(Trials, are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_reserve) {
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   ASSERT_TRUE(happened("TRIAL_START"));
   failures_ = 1;
   error_ = ENOSPC;
@@ -619,10 +592,7 @@ TEST_F(Trials, are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_r
 }
 
 TEST_F(Trials, are_invalid_from_the_first_row_that_may_not_be_on_the_disk) {
-  begin();
-  keeper_->take(kScenario, now());
-  live(1.0);
-  live(1.0, State::following, kScenario.goal);
+  run();
   failures_ = 1;
   error_ = EIO;
   const std::size_t told = events_.size();

@@ -22,12 +22,8 @@ struct ScenarioConfig {
   double mover_distance = 2.0;  ///< m, at least, from the start to a mover at time zero
   double min_route = 0.0;       ///< m, along the floor; 0: 10 where the world permits
   double max_route = 0.0;       ///< m; 0: as long as may be
-  int min_turns = 0;            ///< least number of its turns, of 30 degrees or more
-  int max_turns = kAnyTurns;    ///< most of its turns; 100: any
 
   traffic::MoversConfig movers;  ///< by which they lay their tracks
-
-  static constexpr int kAnyTurns = 100;
 
   /// Only what is asked of the route: the rest follows from the robot.
   void describe(navvi_config::Visitor& visit);
@@ -38,26 +34,20 @@ struct StartAndGoal {
   Eigen::Vector2d goal;       ///< m, in map
   double route_length = 0.0;  ///< m, along a grid of the map; 0 if the goal was given and cannot
                               ///< be reached
-  std::vector<Eigen::Vector2d>
-      route;              ///< m, from start to goal, pulled taut; empty if there is none
   std::string note = {};  ///< a sentence if one of them lies outside of all that stands, or they
                           ///< are less than 5 m apart; else empty
 };
-
-/// How often a polyline turns: by 30 degrees or more from one leg of 1 m or more to the next.
-[[nodiscard]] int turns(const std::vector<Eigen::Vector2d>& polyline);
 
 /// Draws from `seed` what is not given. What is drawn is free, clear of things as `config` says,
 /// connected over the floor on which navigation drives, on the part of it beside which most things
 /// stand, inside the hull of what stands and in its rooms, where there are such that are wide
 /// enough, and, where the world has such places, off the ground that movers sweep: a robot that
 /// stood there would keep them from going on. A goal that is given is passed on as it is, free or
-/// not: refusing it is navigation's task. A drawn start looks along its route. Length and turns
-/// that are asked for hold for every route of which an end is drawn. \param map  of `world`
-/// (occupancy.hpp)
+/// not: refusing it is navigation's task. A drawn start looks along its route. The length that is
+/// asked for holds for every route of which an end is drawn. \param map  of `world` (occupancy.hpp)
 /// \throws WorldError as swept_ground, or if a given start is not finite, in an obstacle or off the
 /// floor, if the map has no floor, or if the world has no free place, or none for a route as long
-/// and with as many turns as asked for, or of 1 m
+/// as asked for, or of 1 m
 [[nodiscard]] StartAndGoal draw_scenario(const WorldDescription& world,
                                          const occupancy::OccupancyMap& map,
                                          const ScenarioConfig& config, std::uint64_t seed,
