@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "navvi_files/bytes.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_files {
 namespace {
@@ -21,21 +22,10 @@ namespace fs = std::filesystem;
 
 class CacheIn : public testing::Test {
  protected:
-  CacheIn() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_cache_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~CacheIn() override { fs::remove_all(folder_); }
-
   [[nodiscard]] Cache cache(std::uintmax_t megabytes = 16, const std::string& build = "one") const {
     return Cache({folder_, megabytes, build});
   }
-  [[nodiscard]] std::vector<fs::path> files() const {
-    std::vector<fs::path> out;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_))
-      if (entry.is_regular_file()) out.push_back(entry.path());
-    return out;
-  }
+  [[nodiscard]] std::vector<fs::path> files() const { return folder_.files(); }
   [[nodiscard]] std::uintmax_t bytes() const {
     std::uintmax_t sum = 0;
     for (const fs::path& file : files()) sum += fs::file_size(file);
@@ -45,7 +35,7 @@ class CacheIn : public testing::Test {
     std::ofstream(file, std::ios::binary) << bytes;
   }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
 };
 
 TEST_F(CacheIn, gives_back_what_was_kept_to_another_process_of_the_same_build_alone) {

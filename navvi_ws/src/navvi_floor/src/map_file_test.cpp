@@ -10,24 +10,17 @@
 #include <sstream>
 
 #include "navvi_floor/map_survey.hpp"
+#include "temp_folder.hpp"
 #include "voxel_world.hpp"
 
 namespace navvi_floor {
 namespace {
 
-/// A folder of its own for each test, gone with it.
 class MapFile : public testing::Test {
  protected:
-  MapFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "navvi_map_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~MapFile() override { std::filesystem::remove_all(folder_); }
-
   [[nodiscard]] std::string path(const std::string& name) const { return folder_ / name; }
   std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path(name), std::ios::binary) << bytes;
-    return path(name);
+    return folder_.write(name, bytes);
   }
   static std::string read(const std::string& path) {
     std::ostringstream out;
@@ -36,7 +29,7 @@ class MapFile : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  navvi_test::TempFolder folder_;
 };
 
 TEST_F(MapFile, reads_what_octomap_writes) {

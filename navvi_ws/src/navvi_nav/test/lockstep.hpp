@@ -51,6 +51,11 @@ class Lockstep : public testing::Test {
     navigator_.set_map(message_of(world_));
     tick();
   }
+  void lead(const Eigen::Vector2d& goal) {
+    load();
+    navigator_.set_goal(goal);
+    tick(2);
+  }
   void tick(int times = 1) {
     for (int i = 0; i < times; ++i) {
       time_ += kTick;

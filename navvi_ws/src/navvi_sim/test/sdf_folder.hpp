@@ -7,6 +7,7 @@
 #include <string>
 
 #include "navvi_sim/read/world_source.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_sim::read {
 
@@ -52,16 +53,8 @@ inline std::string sentence_of(const std::string& spec, const std::string& model
 /// A folder for the worlds of one test, gone afterwards.
 class SdfFolder : public testing::Test {
  protected:
-  SdfFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "navvi_sdf_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~SdfFolder() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::filesystem::path& name, const std::string& text) const {
-    std::filesystem::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name) << text;
-    return (folder_ / name).string();
+    return folder_.write(name, text);
   }
   std::string write_world(const std::string& body, const std::string& version = "1.6") const {
     return write("a.world", "<?xml version='1.0'?><sdf version='" + version + "'><world name='w'>" +
@@ -74,7 +67,7 @@ class SdfFolder : public testing::Test {
                                                name + "'>" + body + "</model></sdf>");
   }
 
-  std::filesystem::path folder_;
+  navvi_test::TempFolder folder_;
   [[nodiscard]] LoadedWorld load(const std::string& body,
                                  const std::string& version = "1.6") const {
     return load_world({write_world(body, version)});

@@ -40,9 +40,7 @@ TEST_F(Lockstep, keeps_the_last_good_map_when_a_broken_one_comes) {
 }
 
 TEST_F(Lockstep, refuses_a_goal_inside_an_obstacle_and_shows_no_path) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   ASSERT_FALSE(navigator_.path().empty());
   navigator_.set_goal({7, 5});
   tick(2);
@@ -70,9 +68,7 @@ TEST_F(Lockstep, keeps_a_standing_goal_when_a_goal_that_cannot_be_read_comes) {
 
 TEST_F(Lockstep, N6_says_at_once_that_obstacles_are_rejected) {
   const std::string said = "the obstacles are rejected, as malformed or too many";
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   navigator_.reject_obstacles();
   EXPECT_EQ(status().detail, said);
   has_obstacles_ = false;
@@ -110,9 +106,7 @@ TEST_F(Lockstep, without_a_goal_never_plans) {
 }
 
 TEST_F(Lockstep, leads_around_the_block_and_arrives) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   EXPECT_EQ(status().replan_reason, Guidance::Replan::new_goal);
   int steps = 0;
   while (status().state == Guidance::State::following && steps < 1000) {
@@ -129,9 +123,7 @@ TEST_F(Lockstep, leads_around_the_block_and_arrives) {
 }
 
 TEST_F(Lockstep, T4_arrives_only_where_odometry_agrees) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   navigator_.set_odometry_place(Eigen::Vector2d(2.0, 5.0));
   robot_.position = {14, 5};
   tick(20);
@@ -147,9 +139,7 @@ TEST_F(Lockstep, T4_arrives_only_where_odometry_agrees) {
 }
 
 TEST_F(Lockstep, never_steers_through_what_stands_after_a_localizer_corrected_the_pose) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   for (const double y : {2.4, 7.6, 2.4}) {  // beside the block, on either side
     robot_.position = {7.5, y};
     int said = 0;
@@ -182,9 +172,7 @@ TEST_F(Lockstep, plans_around_an_obstacle_that_cuts_the_path) {
 }
 
 TEST_F(Lockstep, does_not_change_a_free_path_every_period) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   const Path before = navigator_.path();
   robot_.position = robot_.position + Point{0.1, 0.05};
   tick(200);
@@ -192,9 +180,7 @@ TEST_F(Lockstep, does_not_change_a_free_path_every_period) {
   EXPECT_EQ(navigator_.path(), before);
   config_.replan.trigger.only_if_it_matters = false;
   navigator_ = Navigator(config_);
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   const Path again = navigator_.path();
   robot_.position = robot_.position + Point{0.1, 0.05};
   tick(200);
@@ -231,9 +217,7 @@ TEST_F(Lockstep, calls_the_map_stale_only_if_maps_may_age_and_recovers) {
 }
 
 TEST_F(Lockstep, tells_the_shortest_length_and_how_long_the_rest_takes) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   const Guidance now = status();
   EXPECT_GT(now.shortest_length, 0.0);
   EXPECT_LT(now.shortest_length, length_of(navigator_.path()));
@@ -267,9 +251,7 @@ TEST_F(Lockstep, takes_an_occupancy_grid_until_an_octomap_came) {
 }
 
 TEST_F(Lockstep, leads_on_to_what_closes_the_only_way_and_waits_before_it) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
   tick(50);
   EXPECT_EQ(status().state, Guidance::State::following);
@@ -305,9 +287,7 @@ TEST_F(Lockstep, names_what_stands_on_the_goal) {
 }
 
 TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   ASSERT_EQ(status().state, Guidance::State::following);
   robot_.position = {7.5, 5};  // within the box
   tick(100);
@@ -317,9 +297,7 @@ TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
 TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
   config_.replan.forecast.look_ahead = 2.0;
   navigator_ = Navigator(config_);
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
   tick(100);
   EXPECT_EQ(status().state, Guidance::State::following);
@@ -329,9 +307,7 @@ TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
 }
 
 TEST_F(Lockstep, plans_again_when_the_map_changed) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   world_.box(6, 7, 0, 9, 10, 1.0);
   navigator_.set_map(message_of(world_));
   tick(2);
@@ -399,9 +375,7 @@ TEST_F(Lockstep, cuts_no_hole_for_what_moves_far_off) {
 }
 
 TEST_F(Lockstep, survives_time_jumping_back) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(2);
+  lead({14, 5});
   time_ = 1.0;
   navigator_.reset_times();
   EXPECT_EQ(status().state, Guidance::State::pose_stale);

@@ -8,6 +8,7 @@
 
 #include "bake/baked_bytes.hpp"
 #include "small_world.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_nav::plan {
 namespace {
@@ -62,20 +63,9 @@ void expect_same(const map::Floor& a, const map::Floor& b) {
 
 class KeptBake : public testing::Test {
  protected:
-  KeptBake() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_bake_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~KeptBake() override { fs::remove_all(folder_); }
+  [[nodiscard]] std::vector<fs::path> files() const { return folder_.files(); }
 
-  [[nodiscard]] std::vector<fs::path> files() const {
-    std::vector<fs::path> out;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_))
-      if (entry.is_regular_file()) out.push_back(entry.path());
-    return out;
-  }
-
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
   NavMeshConfig config_;
 };
 

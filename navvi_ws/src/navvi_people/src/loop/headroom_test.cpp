@@ -1,11 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <navvi_types/cue_kind.hpp>
 
 #include "navvi_people/loop/closed_loop.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_people::loop {
 namespace {
@@ -26,19 +24,17 @@ struct Trial {
 };
 
 Trial drive(double bottom, const std::string& sensing) {
-  std::string folder = (std::filesystem::temp_directory_path() / "navvi_lamp_XXXXXX").string();
+  const navvi_test::TempFolder folder;
   ClosedLoopConfig config;
-  config.sim.world = std::string(mkdtemp(folder.data())) + "/lamp.world";
-  std::ofstream(config.sim.world) << "<sdf version='1.7'><world name='w'>\n"
-                                  << box("ground_plane", "12 6 0.1", "0 0 -0.05")
-                                  << box("lamp", "0.8 0.8 0.4",
-                                         "0 0 " + std::to_string(bottom + 0.2))
-                                  << "</world></sdf>";
+  config.sim.world = folder.write(
+      "lamp.world", "<sdf version='1.7'><world name='w'>\n" +
+                        box("ground_plane", "12 6 0.1", "0 0 -0.05") +
+                        box("lamp", "0.8 0.8 0.4", "0 0 " + std::to_string(bottom + 0.2)) +
+                        "</world></sdf>");
   config.sim.start = "-3,0,0";
   config.sim.goal = "3,0";
   config.sim.sensing = sensing;
   ClosedLoop loop(config, NAVVI_PHRASES);
-  std::filesystem::remove_all(folder);
   Trial trial;
   while (loop.time() < 40.0 && loop.step()) {
     trial.contacts += static_cast<int>(loop.told().contacts.size());

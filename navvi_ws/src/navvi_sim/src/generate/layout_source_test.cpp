@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
-
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/read/world_source.hpp"
 #include "read/layout_world.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_sim::generate {
 namespace {
@@ -16,15 +14,8 @@ namespace fs = std::filesystem;
 
 class LayoutFile : public testing::Test {
  protected:
-  LayoutFile() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_layout_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~LayoutFile() override { fs::remove_all(folder_); }
-
   std::string write(const std::string& text) const {
-    std::ofstream(folder_ / "hall.yaml") << text;
-    return (folder_ / "hall.yaml").string();
+    return folder_.write("hall.yaml", text);
   }
   WorldDescription world(const std::string& text) const {
     return read::load_world({write(text)}).world;
@@ -38,7 +29,7 @@ class LayoutFile : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
 };
 
 TEST_F(LayoutFile, starts_from_its_preset_and_changes_what_it_names) {

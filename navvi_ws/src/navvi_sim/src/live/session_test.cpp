@@ -1,7 +1,6 @@
 #include "navvi_sim/live/session.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <array>
 #include <cmath>
@@ -13,6 +12,7 @@
 
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_sim::live {
 namespace {
@@ -112,13 +112,11 @@ std::vector<navvi_types::StateHash> in_another_process(const std::filesystem::pa
 }
 
 TEST(Session, repeats_in_other_processes_from_its_written_recipe) {
-  std::string folder = (std::filesystem::temp_directory_path() / "navvi_session_XXXXXX").string();
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const navvi_test::TempFolder folder;
   const Drive drive(5);
   const Record first = drive.driven(kSteps);
-  std::ofstream(std::filesystem::path(folder) / "parameters.yaml")
-      << setup::recipe(drive.config, drive.scenario);
-  std::ofstream commands(std::filesystem::path(folder) / "commands.csv");
+  folder.write("parameters.yaml", setup::recipe(drive.config, drive.scenario));
+  std::ofstream commands(folder / "commands.csv");
   for (const AppliedCommand& command : first.commands) {
     std::array<char, 128> line{};
     std::snprintf(line.data(), line.size(), "%llu,%.17g,%.17g,%d\n",
@@ -129,7 +127,6 @@ TEST(Session, repeats_in_other_processes_from_its_written_recipe) {
   commands.close();
   EXPECT_EQ(in_another_process(folder), first.hashes);
   EXPECT_EQ(in_another_process(folder), first.hashes);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Recipe, gives_start_and_goal_back_bit_for_bit) {

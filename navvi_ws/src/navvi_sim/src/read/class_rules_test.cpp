@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
+#include "temp_folder.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -37,15 +36,8 @@ TEST(StandardClassRules, name_the_pattern_that_decided) {
 
 class ClassRulesFile : public testing::Test {
  protected:
-  ClassRulesFile() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_rules_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~ClassRulesFile() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& text) const {
-    std::ofstream(folder_ / "rules.yaml") << text;
-    return folder_ / "rules.yaml";
+    return folder_.write("rules.yaml", text);
   }
   std::string sentence_of(const std::string& text) const {
     try {
@@ -56,7 +48,7 @@ class ClassRulesFile : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
 };
 
 TEST_F(ClassRulesFile, that_ships_is_the_standard_one) {

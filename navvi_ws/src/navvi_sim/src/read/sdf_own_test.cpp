@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "navvi_sim/read/world_source.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -15,19 +16,11 @@ namespace fs = std::filesystem;
 
 class SdfOwn : public testing::Test {
  protected:
-  SdfOwn() {
-    std::string pattern = (fs::temp_directory_path() / "navvi_own_XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~SdfOwn() override { fs::remove_all(folder_); }
-
   LoadedWorld read(const std::string& text) const {
-    const fs::path file = folder_ / "a.sdf";
-    std::ofstream(file) << text;
-    return load_world({file.string()});
+    return load_world({folder_.write("a.sdf", text)});
   }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
 };
 
 TEST_F(SdfOwn, is_read_with_care) {
