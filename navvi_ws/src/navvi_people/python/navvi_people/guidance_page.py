@@ -10,10 +10,16 @@ from . import guidance_plots as plots, guidance_tables as tables
 
 NAVVI = Path(__file__).resolve().parents[5] / "navvi"
 THREE = "--people=" + ",".join(tables.TYPES)
-CLOSING = "--conditions=sighted,default,sounds_off,touch_off"
+CLOSING = "--conditions=sighted,default,flow,hand_alone"
+NOISE = "person/hearing/noise:=0.5"
+WORSE = "person/worse:=1.5"
+ALONE = "feedback/lead:=hand+feedback/sounds/enabled:=false+speech:=false"
 # No seed of these was used for tuning.
 BATCHES = {
-    "closing": ["--seeds=92001-92400", THREE, CLOSING],
+    "closing": ["--seeds=92001-92200", THREE, CLOSING],
+    "worlds": ["--worlds=narrow,warehouse", "--seeds=92001-92030", THREE, CLOSING],
+    "noise": ["--seeds=92441-92540", THREE, f"--conditions=noise_numb={NOISE}+feedback/haptics/enabled:=false,noise_hand={NOISE}+feedback/lead:=hand"],
+    "worse": ["--seeds=92441-92480", THREE, f"--conditions=sighted,flow_worse=feedback/lead:=flow+{WORSE},hand_worse={ALONE}+{WORSE}"],
     "drawn": ["--seeds=92001-92005", "--people=drawn:1-20", CLOSING],
     "choices": ["--seeds=92401-92440", THREE,
                 "--conditions=default,sounds_off,touch_off,no_stop=feedback/cues/near/stop_moving:=0+feedback/cues/near/stop_standing:=0,"
@@ -26,7 +32,7 @@ turns are announced from 10 m on instead of 6 m."""
 
 def run(folder, name, jobs):
     """\\return the exit code; 0: DIR/NAME holds the whole batch"""
-    words = [NAVVI, "batch", "--worlds=busy", "--limit=600", f"--jobs={jobs}", "--tell=60", *BATCHES[name], f"--out={folder / name}"]
+    words = [NAVVI, "batch", "--limit=600", f"--jobs={jobs}", "--tell=60", *BATCHES[name], f"--out={folder / name}"]
     return subprocess.run(words, check=False).returncode
 
 
@@ -62,6 +68,13 @@ def parts(folder, found):
                     "![Contacts, time and SPL with intervals, by condition; a mark a person](guidance.svg)")]
     if "drawn" in found:
         out += section("Drawn persons", "Persons whose traits are drawn.", command(folder / "drawn"), tables.guidance(found["drawn"]))
+    if "worlds" in found:
+        out += section("Other worlds", "Likewise in `narrow` and `warehouse`.", command(folder / "worlds"), tables.guidance(found["worlds"]))
+    if "noise" in found:
+        out += section("Touch in noise", "People who hear one sentence or sound in two.", command(folder / "noise"), tables.noise(found["noise"]))
+    if "worse" in found:
+        out += section("Slower people", "People whose delays, errors and misses are 1.5 times those of their type.", command(folder / "worse"),
+                       tables.worse(found["worse"]))
     if "choices" in found:
         out += section("Design choices", CHOICES, command(folder / "choices"), tables.flips(found["choices"]),
                        "![Changes beside the default with intervals, by design choice; a mark a person](guidance_choices.svg)")
@@ -74,8 +87,8 @@ def page(folder, found, known, notes, day):
         "Simulated people ([their traits](people.md)); nobody has driven yet. `./navvi bench guidance TRIALS -o doc/guidance.md` makes this page,",
         "but for the notes: it runs its batches in the folder TRIALS, or what is missing of them; `--as-is` shows those that are there.",
         f"Measured on {day} in world `busy`, on seeds that no tuning saw, limit 600 s. Intervals hold 95 % (bootstrap); changes are beside",
-        "`default` over the same worlds. In each world another person of the type drives, the same in all conditions; `sighted` is the same",
-        "hand led by eyes, and `sounds_off` leaves words and touch.", "",
+        "`default` (ticks) over the same worlds. In each world another person of the type drives, the same in all conditions; `sighted` is the",
+        "same hand led by eyes, `flow` a steady sound, `hand_alone` the motors without any sound.", "",
         *parts(folder, found), *section("Published effects", "`./navvi bench people TYPE`; 200 persons turn, 40 drive; intervals hold 95 % (jackknife over persons).", known), notes])
 
 

@@ -19,7 +19,8 @@ class Goal(NamedTuple):
     measure: str
     text: str
     form: str
-    most: tuple  # of each type; for SPL the least
+    most: tuple  # of each type; for SPL and goals reached the least
+    condition: str = "default"
 
 
 GOALS = (
@@ -28,6 +29,11 @@ GOALS = (
     Goal("over_sighted", "time over that of the same hand led by eyes", ".2f", (1.2, 1.5, 2.2)),
     Goal("residual_deg", "left of a turn, deg, median", ".1f", (4.0, 8.0, 12.0)),
     Goal("cues_per_min", "utterances a minute", ".1f", (8.0, 8.0, 8.0)),
+    Goal("over_sighted", "`flow`: time over that of the same hand led by eyes", ".2f", (1.06, 1.1, 1.2), "flow"),
+    Goal("contacts", "`flow`: contacts a trial", ".3f", (0.01, 0.03, 0.08), "flow"),
+    Goal("reached", "`hand` without any sound: goals reached", ".3f", (0.99, 0.99, 0.98), "hand_alone"),
+    Goal("over_sighted", "likewise: time over that of the same hand led by eyes", ".2f", (1.15, 1.2, 1.3), "hand_alone"),
+    Goal("contacts", "likewise: contacts a trial", ".3f", (0.05, 0.06, 0.12), "hand_alone"),
 )
 
 
@@ -50,14 +56,16 @@ def of(rows, person, condition):
 
 def values(rows, name):
     """Of the trials that have it."""
+    if name == "reached":
+        return [float(row["result"] == "reached") for row in rows]
     return [float(row[name]) for row in rows if row.get(name) not in (None, "", "n/a")]
 
 
-def differences(rows, person, condition, measure):
+def differences(rows, person, condition, measure, beside="default"):
     """Over the trials that both conditions have."""
     def by_trial(name):
         return {(row["world"], row["seed"], row["person_seed"]): float(row[measure]) for row in of(rows, person, name)}
-    there, base = by_trial(condition), by_trial("default")
+    there, base = by_trial(condition), by_trial(beside)
     return [there[key] - base[key] for key in there if key in base]
 
 
@@ -119,21 +127,32 @@ def guidance(rows):
 def goals(rows):
     """What was aimed at beside what is, each with its interval, and whether the figure meets the goal."""
     lines = head("measure", *TYPES)
-    for goal in GOALS:
+    for goal in (goal for goal in GOALS if goal.condition in ordered(rows, "condition")):
         cells = []
         for person, bound in zip(TYPES, goal.most):
             estimate = statistics.median if goal.measure == "residual_deg" else statistics.fmean
-            value, low, high = interval(values(of(rows, person, "default"), goal.measure), estimate)
-            least = goal.measure == "spl"
+            value, low, high = interval(values(of(rows, person, goal.condition), goal.measure), estimate)
+            least = goal.measure in ("spl", "reached")
             met = value >= bound if least else value <= bound
             cells.append(f"{shown(value, low, high, goal.form)}, goal {'at least' if least else 'at most'} {bound:g}: {'met' if met else 'missed'}")
         lines.append(line(goal.text, *cells))
-    worse = []
-    for person in TYPES:
-        lost = [text for name, text in MEASURES.items()
-                if verdict(name, *interval(differences(rows, person, "sounds_off", name))[1:]) == "better"]
-        worse.append("missed: " + ", ".join(lost) if lost else "met")
-    lines.append(line("in no measure worse than words and touch alone (`sounds_off`)", *worse))
+    return lines
+
+
+def noise(rows):
+    """What touch changes for people who hear one cue in two."""
+    lines = head("by the hand, beside ticks without touch", *TYPES)
+    for name, text in MEASURES.items():
+        lines.append(line(text, *(shown(*interval(differences(rows, person, "noise_hand", name, "noise_numb"))) for person in TYPES)))
+    return lines
+
+
+def worse(rows):
+    """Time over sighted and contacts of people who are slower and err more."""
+    lines = head("way", "measure", *TYPES)
+    for condition, way in (("flow_worse", "`flow`"), ("hand_worse", "`hand`")):
+        for name, text, form in (("over_sighted", "time over sighted", ".2f"), ("contacts", "contacts a trial", ".3f")):
+            lines.append(line(way, text, *(shown(*interval(values(of(rows, person, condition), name)), form) for person in TYPES)))
     return lines
 
 
