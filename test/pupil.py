@@ -25,6 +25,7 @@ class Pupil:
         self.begun, self.axes, self.down, self.motors = time.monotonic(), [0.0, 0.0], None, (0.0, 0.0)
         self.last, self.sound, self.silent_since, self.speaking = "", "", 0.0, False
         self.sides, self.held = (0.0, 0.0), set()
+        self.flow, self.pulse, self.pulsed = (0.0, 0.0), (0.0, 0.0), 0.0
         self.kinds, self.felt, self.signals = [], set(), 0
         self.hand = None
         if not keys:
@@ -53,6 +54,9 @@ class Pupil:
             self.tell(cue.text)
             self.last, self.speaking, self.signals = cue.kind, True, 0
             self.kinds.append(cue.kind)
+        elif cue.kind == "flow":
+            self.flow = (cue.left, cue.right)
+            self.kinds.append(cue.kind)
         elif cue.stage == Cue.STARTED and cue.modality == Cue.SOUND:
             if cue.kind != self.sound:
                 self.tell(f"({cue.kind})")
@@ -63,6 +67,8 @@ class Pupil:
 
     def feel(self, message):
         self.motors = tuple(motor.intensity for motor in message.array[:2])
+        if max(self.motors) > 0.0:
+            self.pulse, self.pulsed = self.motors, time.monotonic()
 
     def listening(self):
         """All is told."""
@@ -87,6 +93,23 @@ class Pupil:
     def push(self, x, y):
         self.tell(f"[stick {x} {y}]")
         self.hold_keys(x, y) if self.keys else setattr(self, "axes", [x, y])
+
+    def follow(self, step):
+        """To where a sound that lasts, or pulses, lead, until they have ended for a while."""
+        def shown():
+            if step == "by_hand":
+                return self.pulse if time.monotonic() - self.pulsed < 1.2 else (0.0, 0.0)
+            return self.flow
+        self.until(lambda: max(shown()) > 0.0, 20, "something leads")
+        last = time.monotonic()
+        while time.monotonic() - last < 1.5 and not rospy.is_shutdown():
+            left, right = shown()
+            leads = max(left, right) > 0.0
+            last = time.monotonic() if leads else last
+            lean = (left - right) / (left + right) if leads else 0.0
+            axes = [lean, 0.6 if leads and abs(lean) < 0.9 else 0.0]
+            self.hold_keys(*axes) if self.keys else setattr(self, "axes", axes)
+            time.sleep(0.05)
 
     def hold_keys(self, left, forward):
         wanted = {key for key, on in (("Left", left > 0.3), ("Right", left < -0.3), ("Up", forward > 0.3), ("Down", forward < -0.3)) if on}
@@ -135,6 +158,8 @@ class Pupil:
                 left, right = self.sides if self.keys else self.motors
                 self.push(1.0 if left > 2 * right else -1.0 if right > 2 * left else 0.0, 1.0 if max(left, right) < 2 * min(left, right) else 0.0)
                 time.sleep(0.5)
+            elif step in ("by_sound", "by_hand"):
+                self.follow(step)
             elif step in OBEYED:
                 self.obey(*OBEYED[step])
                 continue

@@ -80,9 +80,9 @@ def check(words):
     """What can be refused without a program."""
     if words["operator"] == "simulated" and words["lesson"] != "none":
         fail("the tutorial needs a person: a game controller, or a display for the keyboard, such as with operator:=keyboard.", 2)
-    if words["operator"] == "simulated" and words["speech"] == "false":
-        fail("the simulated person drives by what it hears, and with speech:=false that is nothing; leave speech out, or drive yourself, "
-             "such as with operator:=keyboard.", 2)
+    if words["operator"] == "simulated" and words["speech"] == "false" and "feedback/lead:=hand" not in words.parameters:
+        fail("the simulated person drives by what it hears, and with speech:=false that is nothing; leave speech out, lead by the motors "
+             "(feedback/lead:=hand), or drive yourself, such as with operator:=keyboard.", 2)
     if words.get("lsl") == "true" and importlib.util.find_spec("pylsl") is None:
         fail("lsl:=true needs the Python package pylsl, which Debian lacks; \"/usr/bin/python3 -m pip install --user --break-system-packages "
              "pylsl\" installs it.", 2)

@@ -22,6 +22,7 @@ class VirtualPad {
     desc.name = "virtual pad";
     desc.userdata = this;
     if (has_rumble) desc.Rumble = &VirtualPad::on_rumble;
+    if (has_rumble) desc.RumbleTriggers = &VirtualPad::on_triggers;
     const int index = SDL_JoystickAttachVirtualEx(&desc);
     EXPECT_GE(index, 0) << SDL_GetError();
     joystick_ = SDL_JoystickOpen(index);
@@ -50,6 +51,9 @@ class VirtualPad {
   [[nodiscard]] SDL_JoystickID instance() const { return instance_; }
   [[nodiscard]] int left() const { return left_; }
   [[nodiscard]] int right() const { return right_; }
+  /// Of the motors at the triggers; -1: never told.
+  [[nodiscard]] int left_trigger() const { return left_trigger_; }
+  [[nodiscard]] int right_trigger() const { return right_trigger_; }
 
  private:
   static Sint16 raw(double value) { return static_cast<Sint16>(std::lround(value * 32767.0)); }
@@ -59,10 +63,17 @@ class VirtualPad {
     return 0;
   }
 
+  static int on_triggers(void* self, Uint16 left, Uint16 right) {
+    static_cast<VirtualPad*>(self)->left_trigger_ = left;
+    static_cast<VirtualPad*>(self)->right_trigger_ = right;
+    return 0;
+  }
+
   SDL_Joystick* joystick_ = nullptr;
   SDL_JoystickID instance_ = -1;
   std::atomic<int> left_{-1};
   std::atomic<int> right_{-1};
+  std::atomic<int> left_trigger_{-1}, right_trigger_{-1};
 };
 
 }  // namespace navvi_feedback::devices

@@ -111,7 +111,7 @@ haptics::Rumble HapticDisplay::lead_by_hand(const std::optional<lead::Course>& c
   if (pulse.left + pulse.right > 0.0) apart_ = 0.0;
   pulsed_ = !rests;
   const haptics::Rumble felt = pattern.value_or(pulse);
-  return {config_.strength * felt.left, config_.strength * felt.right};
+  return {config_.strength * felt.left, config_.strength * felt.right, true};
 }
 
 haptics::Rumble HapticDisplay::update(const Observation& now,

@@ -73,6 +73,7 @@ class Gamepad::Pad {
       : pad_(pad),
         instance_(SDL_JoystickInstanceID(SDL_GameControllerGetJoystick(pad))),
         has_rumble_(SDL_GameControllerHasRumble(pad) == SDL_TRUE),
+        has_triggers_(SDL_GameControllerHasRumbleTriggers(pad) == SDL_TRUE),
         opened_(Clock::now()) {
     for (const SDL_SensorType sensor : {SDL_SENSOR_GYRO, SDL_SENSOR_ACCEL})
       if (SDL_GameControllerHasSensor(pad, sensor) == SDL_TRUE &&
@@ -118,24 +119,31 @@ class Gamepad::Pad {
     const MotorValues wanted(motor_value(std::max(wish.left, least)),
                              motor_value(std::max(wish.right, least)));
     const bool resend = wanted != MotorValues() && now - sent_time_ >= kResend;
-    if (wanted == sent_ && !resend) return Command::same;
-    const Command command = wanted == sent_ ? Command::same : Command::another;
+    const MotorValues triggers = wish.sides && has_triggers_ ? wanted : MotorValues();
+    const bool same = wanted == sent_ && triggers == triggers_;
+    if (same && !resend) return Command::same;
+    const Command command = same ? Command::same : Command::another;
     sent_ = wanted;
     sent_time_ = now;
+    if (triggers != MotorValues() || triggers_ != MotorValues())
+      SDL_GameControllerRumbleTriggers(pad_.get(), triggers.first, triggers.second,
+                                       static_cast<Uint32>(kExpiry.count()));
+    triggers_ = triggers;
     const int result = SDL_GameControllerRumble(pad_.get(), wanted.first, wanted.second,
                                                 static_cast<Uint32>(kExpiry.count()));
     return result >= 0 ? command : Command::refused;
   }
   void silence() {
     if (has_rumble_) SDL_GameControllerRumble(pad_.get(), 0, 0, 0);
+    if (has_triggers_) SDL_GameControllerRumbleTriggers(pad_.get(), 0, 0, 0);
   }
 
  private:
   std::unique_ptr<SDL_GameController, CloseController> pad_;
   SDL_JoystickID instance_;
-  bool has_rumble_;
+  bool has_rumble_, has_triggers_;
   Clock::time_point opened_;
-  MotorValues sent_;
+  MotorValues sent_, triggers_;
   Clock::time_point sent_time_;
   std::optional<Clock::time_point> beat_;  ///< the last of its sensor
 };
@@ -175,7 +183,7 @@ void Gamepad::rumble(const haptics::Rumble& rumble, std::function<void()> called
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!called_ && status_.connected) called_ = std::move(called);
-    wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right)};
+    wish_ = {finite_or_zero(rumble.left), finite_or_zero(rumble.right), rumble.sides};
     wish_time_ = Clock::now();
     woken_ = true;
   }

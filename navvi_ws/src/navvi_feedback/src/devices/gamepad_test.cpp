@@ -113,6 +113,18 @@ TEST_F(GamepadWith, rumble_reaches_the_right_motors_and_expires_without_a_new_wi
   EXPECT_TRUE(eventually([&] { return pad.left() == 0 && pad.right() == 0; }, 600ms));
 }
 
+TEST_F(GamepadWith, sides_that_matter_are_felt_at_the_triggers_too) {
+  Gamepad gamepad;
+  VirtualPad pad;
+  ASSERT_TRUE(connects(gamepad));
+  std::this_thread::sleep_for(450ms);  // the priming pulse
+  EXPECT_EQ(pad.right_trigger(), -1);
+  ASSERT_TRUE(reaches(gamepad, {0.0, 0.7, true}, [&] {
+    return std::abs(pad.right_trigger() / 65535.0 - 0.7) < 0.01 && pad.left_trigger() == 0;
+  }));
+  ASSERT_TRUE(reaches(gamepad, {0.0, 0.7}, [&] { return pad.right_trigger() == 0; }));
+}
+
 TEST_F(GamepadWith, who_wishes_is_told_when_the_driver_was_if_that_is_another_command) {
   Gamepad gamepad;
   VirtualPad pad;

@@ -6,6 +6,7 @@ namespace navvi_feedback::haptics {
 struct Rumble {
   double left = 0.0;   ///< the strong motor
   double right = 0.0;  ///< the weak motor
+  bool sides = false;  ///< the sides matter: felt at the triggers, too, where these have motors
 };
 
 }  // namespace navvi_feedback::haptics

@@ -1,0 +1,30 @@
+"""Sessions led by other ways than words: by the motors alone, without any sound, and by a sound that lasts."""
+import csv
+import pathlib
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def session(folder, *words):
+    """(summary, journal) of a simulated person's trial."""
+    run = subprocess.run([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", "world:=busy", "seed:=9601", "limit:=150",
+                          f"out:={folder}", *words], text=True, capture_output=True, timeout=400, check=False)
+    trial = next(folder.glob("trial-*"), None)
+    assert trial, run.stdout[-3000:] + run.stderr[-1000:]
+    with open(trial / "summary.csv", newline="") as file:
+        return next(csv.DictReader(file)), (trial / "journal.csv").read_text(encoding="utf-8")
+
+
+def test_a_deafblind_person_reaches_the_goal_by_the_motors_alone(tmp_path):
+    summary, journal = session(tmp_path, "operator/person/type:=deafblind", "feedback/lead:=hand", "speech:=false")
+    assert summary["result"] == "reached" and summary["safe_stop_count"] == "0", summary
+    assert summary["cues_spoken"] == "0" and summary["sounds_played"] == "0", summary
+    assert "modality=rumble;kind=begun" in journal and "modality=rumble;kind=arrived" in journal, journal[-2000:]
+
+
+def test_a_person_is_led_by_a_sound_that_lasts_without_an_order_to_turn(tmp_path):
+    summary, journal = session(tmp_path, "operator/person/type:=typical", "feedback/lead:=flow")
+    assert summary["result"] == "reached" and summary["safe_stop_count"] == "0", summary
+    assert "modality=sound;kind=flow" in journal, journal[-2000:]
+    assert not any(f"kind={order};" in journal for order in ("turn_now", "straight_then", "go_on")), journal[-2000:]
