@@ -126,7 +126,8 @@ Feedback::Decided Feedback::update(const Devices& devices, bool voice_busy, doub
   for (const sounds::Play& play : sounds.update(out.cues, now, led, teacher.taught(), time))
     out.plays.push_back(play);
   auto course = pilot_.update(lasts(now.lead) && !teacher.speaks() ? led.off : std::nullopt,
-                              now.nearby, now.motion().linear, config_.drive.max_forward, time);
+                              now.nearby, now.motion().linear, config_.drive.max_forward,
+                              now.lead == Lead::hand, time);
   if (now.lead == Lead::flow) following_.update(course, now.motion(), time);
   if (const auto& shown = teacher.taught().course) {
     course = shown->course;
@@ -195,7 +196,8 @@ Lead Feedback::leading(const Observation& now) const {
   // A lesson teaches turns by ticks, whatever leads later.
   if (deciders_->teacher.speaks()) return now.audible ? Lead::ticks : Lead::words;
   const Lead wanted = navvi_types::from_word<Lead>(config_.lead).value_or(Lead::words);
-  if ((wanted == Lead::hand || deciders_->touch.deaf()) && now.motors) return Lead::hand;
+  const bool deaf = deciders_->touch.deaf() && !now.devices.sounds;
+  if ((wanted == Lead::hand || deaf) && now.motors) return Lead::hand;
   if (!now.audible) return Lead::words;
   if (wanted == Lead::flow && following_.follows()) return Lead::flow;
   return wanted != Lead::words && deciders_->sounds.leads() ? Lead::ticks : Lead::words;

@@ -153,6 +153,18 @@ TEST_F(Leading, by_the_hand_stops_the_wheels_when_the_motors_are_lost) {
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0) << "until the stick was neutral";
 }
 
+TEST_F(Leading, takes_to_the_hand_only_where_no_sound_reaches_anybody) {
+  devices_.audio = Link::never;
+  begin("ticks");
+  steer_ = 1.2;
+  devices_.hands.axes = {0.5, 0.5};
+  pass(3.0);
+  EXPECT_EQ(played_.count(sounds::Earcon::turn), 1U) << "who listens by a topic hears them";
+  devices_.sounds = false;
+  pass(3.0);
+  EXPECT_GT(pulses(2.0, 1), 0);
+}
+
 TEST(LeadingConfig, by_the_hand_is_refused_without_motors) {
   FeedbackConfig config;
   navvi_config::read(config, YAML::Load("{lead: hand, haptics: {enabled: false}}"), "test");

@@ -37,6 +37,7 @@ std::optional<navvi_types::Velocity> GuidedPerson::feed_back(const people::Stick
     devices.hands = *hands;
   devices.speaking = time < speaks_until_;
   devices.words = speech_;
+  devices.sounds = heard_;
   devices.audio =
       heard_ ? navvi_feedback::senses::Link::alive : navvi_feedback::senses::Link::never;
   devices.robot = node::from_msg(robot);
