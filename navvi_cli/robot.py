@@ -11,6 +11,7 @@ from .session import has_pad
 
 SCAN, CLOUD, ODOMETRY = "sensor_msgs/LaserScan", "sensor_msgs/PointCloud2", "nav_msgs/Odometry"
 GRID, JOY, TWIST = "nav_msgs/OccupancyGrid", "sensor_msgs/Joy", "geometry_msgs/Twist"
+BOOL, BATTERY = "std_msgs/Bool", "sensor_msgs/BatteryState"
 RADII = {"perception/robot_radius": "/perception_node/robot_radius", "nav/mesh/robot_radius": "/nav_node/mesh/robot_radius"}
 
 

@@ -2,7 +2,7 @@
 import math
 from collections import namedtuple
 
-from .robot import CLOUD, GRID, JOY, ODOMETRY, SCAN, TWIST, flat, inverse, matrix_of, resolved
+from .robot import BATTERY, BOOL, CLOUD, GRID, JOY, ODOMETRY, SCAN, TWIST, flat, inverse, matrix_of, resolved
 
 WELL, LOOK, WRONG = "well", "look", "wrong"
 AHEAD, OLD, LATE = 0.2, 1.0, 0.3  # s: perception_node drops beyond the first two, a stick is slow beyond the last
@@ -10,7 +10,9 @@ SLACK = 0.9                       # of a rate: some seconds hold a message more 
 NEEDED = {"scan": f"{SCAN} at 5 Hz or more, in a frame of TF", "points": f"{CLOUD} at 5 Hz or more, in a frame of TF",
           "odom": f"{ODOMETRY} at 10 Hz or more, in odom_frame", "tf": "map_frame, odom_frame and base_frame in one tree",
           "map": f"{GRID} in map_frame, optional", "footprint": "one radius about base_frame that holds all of the robot",
-          "stick": f"a pad here, or with input:=topic {JOY} on /joy", "wheels": f"a node that takes {TWIST}, and no other that gives it"}
+          "stick": f"a pad here, or with input:=topic {JOY} on /joy", "wheels": f"a node that takes {TWIST}, and no other that gives it",
+          "emergency_stop": f"{BOOL}, optional", "bumper": f"{BOOL}, optional", "battery": f"{BATTERY}, optional"}
+OPTIONAL = {"emergency_stop": BOOL, "bumper": BOOL, "battery": BATTERY}  # often silent until something changes
 
 
 class Line(namedtuple("Line", "part verdict found todo", defaults=[""])):
@@ -19,7 +21,8 @@ class Line(namedtuple("Line", "part verdict found todo", defaults=[""])):
 
 
 def lines(robot):
-    return [*sensors(robot), odometry(robot), transforms(robot), prior_map(robot), footprint(robot), stick(robot), wheels(robot)]
+    return [*sensors(robot), odometry(robot), transforms(robot), prior_map(robot), footprint(robot), stick(robot), wheels(robot),
+            *(optional(robot, part, robot.words[part]) for part in OPTIONAL if robot.words[part])]
 
 
 def silent(robot, part, name, kind):
@@ -180,3 +183,11 @@ def wheels(robot):
     if others:
         return Line("wheels", WRONG, f"{found}, published by {', '.join(others)}", "end these: relay_node alone may move the wheels")
     return Line("wheels", WELL, found)
+
+
+def optional(robot, part, name):
+    name = resolved(name)
+    nodes = robot.publishers.get(name)
+    if not nodes or robot.kinds.get(name) != OPTIONAL[part]:
+        return silent(robot, part, name, OPTIONAL[part])
+    return Line(part, WELL, f"{name}, published by {', '.join(nodes)}")

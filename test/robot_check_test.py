@@ -141,6 +141,18 @@ def test_a_line_says_what_is_wrong_and_what_to_do(spoil, part, verdict, sentence
     assert line.verdict == verdict and sentence in line.todo, line
 
 
+@pytest.mark.parametrize("nodes, kind, verdict, sentence", [
+    (["/base"], "std_msgs/Bool", "well", "/estop, published by /base"),
+    ([], "std_msgs/Bool", "wrong", "nothing publishes /estop"),
+    (["/base"], "std_msgs/Int8", "wrong", "/estop is a std_msgs/Int8"),
+])
+def test_an_emergency_stop_that_is_named_has_to_be_there(nodes, kind, verdict, sentence):
+    fake = Fake(emergency_stop="estop")
+    fake.kinds["/estop"], fake.publishers["/estop"] = kind, nodes
+    line = fake.lines()["emergency_stop"]
+    assert line.verdict == verdict and sentence in line.found, line
+
+
 def test_without_any_range_both_topics_are_named():
     lines = robot_check.lines(Fake())
     assert [(line.part, line.verdict) for line in lines[:2]] == [("scan", "wrong"), ("points", "wrong")]

@@ -2,8 +2,9 @@
 
 In ten seconds, with the master of ROS_MASTER_URI, and without moving anything:
 a line each for scans and clouds, odometry, transforms, map, footprint, stick
-and wheels, with what was found, what is needed and what to do. The arguments
-are those of robot.launch; parameters are given as perception/no_return:=free.
+and wheels, and for emergency stop, bumper and battery where they are named,
+with what was found, what is needed and what to do. The arguments are those of
+robot.launch; parameters are given as perception/no_return:=free.
 
 Exit codes
 0: all is well, or worth a look. 1: something is wrong or missing. 2: a wrong

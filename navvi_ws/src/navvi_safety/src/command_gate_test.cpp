@@ -120,6 +120,23 @@ TEST_F(Gate, stops_when_it_is_asked_to_until_the_stick_was_neutral) {
   EXPECT_EQ(wheels_.linear, 1.0);
 }
 
+TEST_F(Gate, C8_does_not_move_while_an_emergency_stop_lasts) {
+  start();
+  // The stick is released in it, which counts for nothing, and pushed again.
+  for (const double stick : {1.0, 0.0, 1.0}) {
+    for (int i = 0; i < 50; ++i) {
+      gate_.stop(CommandGate::Reason::emergency_stop);
+      hold(kStep, Velocity{stick, 0.0});
+      EXPECT_EQ(wheels_.linear, 0.0);
+    }
+    EXPECT_EQ(gate_.reason(), CommandGate::Reason::emergency_stop);
+  }
+  hold(1.0, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0) << "the stick was not neutral since";
+  start();
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
 TEST_F(Gate, that_never_ran_waits_whatever_it_is_asked) {
   gate_.stop(CommandGate::Reason::clock_jumped);
   EXPECT_EQ(gate_.state(), CommandGate::State::waiting);

@@ -2,19 +2,35 @@
 // stops.
 
 #include <ros/ros.h>
+#include <std_msgs/Bool.h>
 
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
 #include <navvi_safety/now.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
+namespace {
+
+struct NodeConfig {
+  navvi_safety::CommandGateConfig gate;
+  std::string emergency_stop;  ///< topic of the robot; empty: none
+
+  void describe(navvi_config::Visitor& visit) {
+    gate.describe(visit);
+    visit(emergency_stop, "emergency_stop", navvi_config::Any{}, "",
+          "topic with std_msgs/Bool, true while the robot's emergency stop is pressed: the wheels "
+          "stand; empty: none");
+  }
+};
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  using navvi_safety::CommandGateConfig;
-  if (const auto code = navvi_config::print_parameters<CommandGateConfig>(argc, argv)) return *code;
+  if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "relay_node");
-  return navvi_config::run_node<CommandGateConfig>([](const CommandGateConfig& config) {
+  return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;
-    navvi_safety::CommandGate gate(config);
+    navvi_safety::CommandGate gate(config.gate);
     navvi_safety::CommandInput input(gate);
     ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("robot/cmd_vel", 1);
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
@@ -35,12 +51,21 @@ int main(int argc, char** argv) {
     };
     publish_state();
 
+    bool pressed = false;
+    const auto step = [&] {
+      if (pressed) gate.stop(navvi_safety::CommandGate::Reason::emergency_stop);
+      wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
+      publish_state();
+    };
     // By wall clock, so that a stopped simulation clock cannot keep the wheels turning.
-    ros::WallTimer timer =
-        node.createWallTimer(ros::WallDuration(0.02), [&](const ros::WallTimerEvent&) {
-          wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
-          publish_state();
-        });
+    ros::WallTimer timer = node.createWallTimer(ros::WallDuration(0.02), [&](auto&) { step(); });
+    ros::Subscriber stop;
+    if (!config.emergency_stop.empty())
+      stop = node.subscribe<std_msgs::Bool>(config.emergency_stop, 10,
+                                            [&](const std_msgs::Bool::ConstPtr& msg) {
+                                              pressed = msg->data;
+                                              step();
+                                            });
     ros::spin();
     wheels.publish(geometry_msgs::Twist());
     return 0;

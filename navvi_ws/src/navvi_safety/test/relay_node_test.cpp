@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <ros/network.h>
 #include <ros/ros.h>
+#include <std_msgs/Bool.h>
 #include <xmlrpcpp/XmlRpc.h>
 
 #include <cmath>
@@ -123,6 +124,35 @@ TEST_F(Relay, M2_wants_a_driver_that_has_connected_anew_to_be_neutral_first) {
   // Where connecting took longer than the timeout, the commands had been lost before.
   EXPECT_TRUE(
       drive_until(0.5, [&] { return drive_.reason == navvi_msgs::DriveState::DRIVER_CHANGED; }));
+  start(0.6);
+}
+
+TEST_F(Relay, C8_stands_while_the_emergency_stop_is_pressed_and_until_the_stick_was_neutral) {
+  ros::NodeHandle node;
+  ros::Publisher emergency = node.advertise<std_msgs::Bool>("emergency_stop", 1);
+  const auto press = [&emergency](bool pressed) {
+    std_msgs::Bool msg;
+    msg.data = pressed;
+    emergency.publish(msg);
+  };
+  ASSERT_TRUE(wait_until([&] { return emergency.getNumSubscribers() > 0; }));
+  start();
+  press(true);
+  EXPECT_TRUE(drive_until(0.7, [&] {
+    return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP;
+  }));
+  // Neither a held nor a neutral stick moves the wheels, nor does one that is pushed after it.
+  const auto stand = [&](double stick, double seconds) {
+    const ros::WallTime begin = ros::WallTime::now();
+    EXPECT_TRUE(drive_until(stick, [&] {
+      EXPECT_EQ(speed_, 0.0);
+      return (ros::WallTime::now() - begin).toSec() > seconds;
+    }));
+  };
+  for (const double stick : {0.7, 0.0, 0.7}) stand(stick, 0.6);
+  press(false);
+  stand(0.7, 0.6);
+  EXPECT_EQ(drive_.reason, navvi_msgs::DriveState::EMERGENCY_STOP) << "until it was neutral";
   start(0.6);
 }
 

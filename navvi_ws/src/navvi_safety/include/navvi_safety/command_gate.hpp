@@ -53,7 +53,8 @@ class CommandGate {
   /// beyond the limits is clamped. A command later than `timeout` finds the wheels stopped.
   void receive(const std::optional<navvi_types::Velocity>& command, const Instant& now);
 
-  /// Stops the wheels, for a reason beside the commands.
+  /// Stops the wheels, for a reason beside the commands. They stand for as long as this is called
+  /// before each update, and until the command was neutral after that.
   void stop(Reason reason);
 
   /// The velocity for the wheels at `now`. Call it at every control step.

@@ -37,6 +37,7 @@ STOPS = {
     DriveState.COMMAND_INVALID: "the commands were not valid",
     DriveState.DRIVER_CHANGED: "the commands came by another connection",
     DriveState.CLOCK_JUMPED: "the time jumped",
+    DriveState.EMERGENCY_STOP: "the emergency stop is pressed",
 }
 WAITING = {TrialState.PREPARING: "The trial is being prepared", TrialState.CHOOSE_GOAL: "The trial waits for a goal",
            TrialState.READY: "The trial waits until its person presses start"}

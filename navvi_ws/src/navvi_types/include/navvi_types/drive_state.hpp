@@ -21,6 +21,7 @@ struct DriveState {
     command_invalid,
     driver_changed,  ///< commands came by another connection than before
     clock_jumped,    ///< ROS time jumped
+    emergency_stop,  ///< the robot's is pressed
   };
 
   State state = State::waiting;
@@ -34,8 +35,9 @@ struct DriveState {
 [[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::State) {
   return {"waiting", "running", "stopped"};
 }
-[[nodiscard]] constexpr std::array<const char*, 5> names(DriveState::Reason) {
-  return {"none", "command_lost", "command_invalid", "driver_changed", "clock_jumped"};
+[[nodiscard]] constexpr std::array<const char*, 6> names(DriveState::Reason) {
+  return {"none",           "command_lost", "command_invalid",
+          "driver_changed", "clock_jumped", "emergency_stop"};
 }
 
 }  // namespace navvi_types
