@@ -1,4 +1,5 @@
 """Rows of doc/faults.md that need a whole session: programs are killed, and what is left is looked at from outside."""
+import contextlib
 import csv
 import datetime
 import os
@@ -111,17 +112,40 @@ def test_L5_where_the_command_is_killed_the_session_ends_with_it_and_the_record_
     assert (run.summary()["result"], run.summary()["bag"]) == ("aborted", "ok"), run.summary()
 
 
-def test_M2_a_second_node_named_trial_node_ends_the_session_with_its_record_whole(run):
-    run.begin()
-    twin = subprocess.Popen(["/usr/bin/python3", "-c", "import rospy; rospy.init_node('trial_node'); rospy.sleep(20)"],
-                            env=dict(os.environ, ROS_MASTER_URI=run.uri, ROS_IP="127.0.0.1"))
-    run.process.wait(40)
-    twin.kill()
-    twin.wait()
+@contextlib.contextmanager
+def twin_of(run, node):
+    """Another program by the name of one of the session's nodes."""
+    program = subprocess.Popen(["/usr/bin/python3", "-c", f"import rospy; rospy.init_node('{node}'); rospy.spin()"],
+                               env=dict(os.environ, ROS_MASTER_URI=run.uri, ROS_IP="127.0.0.1"))
+    yield program
+    program.kill()
+    program.wait()
+
+
+@pytest.mark.parametrize("node, words", [("trial_node", []), ("sim_node", []), ("perception_node", ["sensing:=lidar"])])
+def test_M2_a_second_node_of_a_name_ends_the_session_with_its_record_whole(node, words, tmp_path):
+    run = Run(tmp_path, *words)
+    try:
+        run.begin()
+        with twin_of(run, node):
+            run.process.wait(40)
+    finally:
+        run.close()
     assert run.process.returncode == 1
     assert (run.summary()["result"], run.summary()["reason"]) == ("aborted", "name_taken"), run.text()[-2000:]
-    assert "Another node has taken the name /trial_node" in run.text()
+    assert f"error: Another node has taken the name /{node}, so this one ends." in run.text()
     assert list(run.folder.glob("trial-*/events.csv"))
+
+
+@pytest.mark.parametrize("node", ["nav_node", "feedback_node"])
+def test_M2_a_guide_whose_name_is_taken_comes_back_and_leads_on(node, run):
+    run.begin()
+    with twin_of(run, node) as twin:
+        run.wait_for(lambda: twin.poll() is not None, 20, "the name is the guide's again")
+    run.process.wait(180)
+    assert f"error: Another node has taken the name /{node}, so this one ends." in run.text()
+    assert f"warning: {node} has ended with exit code 3 and is started anew." in run.text()
+    assert run.summary()["result"] == "reached", run.text()[-2000:]
 
 
 def test_a_master_that_takes_longer_than_10_s_to_start_is_waited_for(tmp_path):

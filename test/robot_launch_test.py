@@ -1,4 +1,5 @@
 """launch/robot.launch with a robot that NavVI has never met: here the simulator, which knows nothing of the person's side."""
+import csv
 import json
 import pathlib
 import re
@@ -7,6 +8,7 @@ import time
 
 import pytest
 import yaml
+from navvi_msgs.msg import TrialState
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
@@ -67,7 +69,7 @@ def places_file(folder):
 
 class Robot:
     def __init__(self, master, folder):
-        self.env = master
+        self.env, self.folder = master, folder
         self.places = places_file(folder)
         self.processes = []
         self.run("rosparam", "set", "use_sim_time", "true")
@@ -151,12 +153,22 @@ def test_the_robots_place_is_remembered_by_buttons_and_ears_and_another_by_a_cli
     assert places == PLACES
 
 
+def test_M2_a_relay_whose_name_is_taken_ends_the_trial_and_the_session(robot):
+    assert eventually(lambda: robot.field("/navvi/trial_state", "state") == TrialState.RUNNING)
+    launch = robot.processes[1]
+    robot.start("/usr/bin/python3", "-c", "import rospy; rospy.init_node('relay_node'); rospy.spin()")
+    launch.wait(40)
+    with open(max(robot.folder.glob("trial-*/summary.csv")), newline="") as file:
+        summary = next(csv.DictReader(file))
+    assert (summary["result"], summary["reason"]) == ("aborted", "name_taken"), summary
+
+
 def test_the_robots_frames_and_radius_reach_who_reads_them():
     words = subprocess.run(["roslaunch", "--dump-params", str(ROOT / "launch/robot.launch"), "map_frame:=tb3/map", "odom_frame:=tb3/odom",
-                            "base_frame:=tb3/base_footprint", "radius:=0.2", "nav_parameters:={mesh: {robot_radius: 0.25}}"],
+                            "base_frame:=tb3/base_footprint", "radius:=0.2", "height:=1.3", "emergency_stop:=/estop", "nav_parameters:={mesh: {robot_radius: 0.25}}"],
                            capture_output=True, text=True, timeout=60).stdout
     for name in "nav_node/map_frame: tb3/map", "perception_node/map_frame: tb3/map", "nav_node/base_frame: tb3/base_footprint", \
-            "perception_node/base_frame: tb3/base_footprint", "perception_node/robot_radius: 0.2", "nav_node/mesh/robot_radius: 0.25", \
+            "perception_node/base_frame: tb3/base_footprint", "perception_node/robot_radius: 0.2", "nav_node/mesh/robot_height: 1.3", "relay_node/emergency_stop: /estop", "feedback_node/emergency_stop: /estop", "nav_node/mesh/robot_radius: 0.25", \
             *(f"{node}_node/odom_frame: tb3/odom" for node in ("trial", "nav", "perception", "feedback")):
         assert f"/{name}\n" in words
 

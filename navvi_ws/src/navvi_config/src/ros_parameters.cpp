@@ -1,6 +1,7 @@
 #include "navvi_config/ros_parameters.hpp"
 
 #include <XmlRpcValue.h>
+#include <ros/param.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <sys/resource.h>
@@ -52,6 +53,10 @@ void allow_files() {
 }
 
 void on_shutdown_request(const std::function<void()>& end) {
+  // What the first line to /rosout asks the master for. Asked there for the first time by a node
+  // whose name was taken, it would register that node again, and end the other one.
+  bool unused = false;
+  ros::param::getCached("/rosout_disable_topics_generation", unused);
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind(
       "shutdown", [end](XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& answer) {

@@ -10,7 +10,7 @@
 #include <navvi_types/subscribe.hpp>
 #include <set>
 
-#include "node/crashed_part.hpp"
+#include "node/session_parts.hpp"
 #include "node/msg_conversion.hpp"
 #include "trial/trial_keeper.hpp"
 
@@ -131,7 +131,7 @@ class TrialNode {
 
   /// Ends a running trial as aborted and closes everything. Takes two seconds at most.
   void shut_down() {
-    const std::string why = navvi_config::name_is_taken() ? "name_taken" : crashed_part();
+    const std::string why = navvi_config::name_is_taken() ? "name_taken" : parts_.crashed();
     for (keeper_.stop(now(), why); !keeper_.done(); keeper_.step(now()))
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
     ros::shutdown();
@@ -152,7 +152,10 @@ class TrialNode {
   }
   [[nodiscard]] trial::TrialKeeper::Outlets outlets() {
     trial::TrialKeeper::Outlets out;
-    out.publish = [this](const record::Row& row) { events_.publish(to_msg(row)); };
+    out.publish = [this](const record::Row& row) {
+      events_.publish(to_msg(row));
+      if (row.type == "TRIAL_START") parts_.note();
+    };
     out.set_goal = [this](const trial::ChosenGoal& goal) {
       goals_.publish(navvi_types::goal_msg(goal.place, goal.stamp));
     };
@@ -237,6 +240,7 @@ class TrialNode {
   ros::Publisher events_;
   ros::Publisher goals_;
   ros::Publisher state_;
+  SessionParts parts_;
   trial::TrialKeeper keeper_;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_, beat_;

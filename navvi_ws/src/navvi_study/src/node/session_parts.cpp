@@ -1,4 +1,4 @@
-#include "node/crashed_part.hpp"
+#include "node/session_parts.hpp"
 
 #include <netdb.h>
 #include <poll.h>
@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <memory>
 #include <navvi_config/launcher.hpp>
+#include <utility>
 
 namespace navvi_study::node {
 namespace {
@@ -38,28 +39,42 @@ bool nobody_listens(const std::string& host, std::uint32_t port) {
   return error == ECONNREFUSED;
 }
 
-bool crashed(const char* node) {
+constexpr std::pair<const char*, const char*> kParts[] = {{"/sim_node", "simulator_lost"},
+                                                          {"/perception_node", "perception_lost"},
+                                                          {"/relay_node", "relay_lost"}};
+
+/// Of a node, as its URI; empty: it is not registered.
+std::string address_of(const std::string& node) {
   XmlRpc::XmlRpcValue request, response, address;
   request[0] = ros::this_node::getName();
   request[1] = node;
-  std::string host;
-  std::uint32_t port = 0;
-  return ros::master::execute("lookupNode", request, response, address, false) &&
-         ros::network::splitURI(address, host, port) && nobody_listens(host, port);
+  if (!ros::master::execute("lookupNode", request, response, address, false)) return {};
+  return address;
 }
 
 }  // namespace
 
-std::string crashed_part() {
+void SessionParts::note() {
+  for (const auto& [node, reason] : kParts) addresses_[node] = address_of(node);
+}
+
+std::string SessionParts::crashed() const {
   // The signal may come when the first of roslaunch's threads has ended, and the last has not yet.
   for (int i = 0; i < kThreads; ++i) {
     if (navvi_config::parent_has_ended()) return "launcher_lost";
     ::poll(nullptr, 0, kThread);
   }
   if (nobody_listens(ros::master::getHost(), ros::master::getPort())) return "master_lost";
-  if (crashed("/sim_node")) return "simulator_lost";
-  if (crashed("/perception_node")) return "perception_lost";
-  if (crashed("/relay_node")) return "relay_lost";
+  for (const auto& [node, reason] : kParts) {
+    const std::string address = address_of(node);
+    if (address.empty()) continue;
+    const auto noted = addresses_.find(node);
+    if (noted != addresses_.end() && !noted->second.empty() && noted->second != address)
+      return "name_taken";
+    std::string host;
+    std::uint32_t port = 0;
+    if (ros::network::splitURI(address, host, port) && nobody_listens(host, port)) return reason;
+  }
   return {};
 }
 
