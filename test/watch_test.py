@@ -3,6 +3,7 @@ import importlib.machinery
 import importlib.util
 import os
 import pathlib
+import pty
 import re
 import signal
 import subprocess
@@ -80,7 +81,7 @@ def test_nothing_that_the_guide_knows_is_told_in_the_picture_alone():
         names = [name for name in vars(message) if name.isupper()]
         return {getattr(message, name) for name in names[names.index(first):names.index(last) + 1]}
     assert set(watch.STATES) == constants(Guidance, "NO_GOAL", "MAKE_ROOM")
-    assert set(watch.STOPS) == {DriveState.COMMAND_LOST, DriveState.COMMAND_INVALID, DriveState.DRIVER_CHANGED, DriveState.CLOCK_JUMPED}
+    assert set(watch.STOPS) == constants(DriveState, "COMMAND_LOST", "EMERGENCY_STOP")
     assert set(watch.WAITING) == constants(TrialState, "PREPARING", "READY")
 
 
@@ -92,8 +93,8 @@ def trial(tmp_path):
     return tmp_path
 
 
-def navvi_watch(*words, **more):
-    return subprocess.Popen([str(ROOT / "navvi"), "watch", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+def navvi_watch(*words, stdout=subprocess.PIPE, **more):
+    return subprocess.Popen([str(ROOT / "navvi"), "watch", *map(str, words)], stdout=stdout, stderr=subprocess.STDOUT, text=True,
                             stdin=subprocess.DEVNULL, start_new_session=True, env=dict(os.environ, **more))
 
 
@@ -125,6 +126,32 @@ def test_no_line_comes_before_the_last_one_can_have_been_read(trial):
             times.append((time.monotonic(), line))
     for (before, line), (after, _) in zip(times, times[1:-1]):
         assert after - before > 0.9 * max(0.7, 0.1 * len(line.split())), line
+
+
+def times_of(lines, most):
+    times = []
+    for line in lines:
+        times += [] if line.startswith("navvi:") else [time.monotonic()]
+        if len(times) == most:
+            break
+    return times
+
+
+def test_a_record_comes_at_once_where_no_terminal_reads_it_and_by_and_by_in_one(trial):
+    process = navvi_watch(trial)
+    times = times_of(process.stdout, len(LINES))
+    assert process.wait(20) == 0 and len(times) == len(LINES)
+    assert times[-1] - times[0] < 0.1 * 0.7 * len(LINES), "no line comes sooner than 0.7 s after the last one where they are paced"
+
+    terminal, its_end = pty.openpty()
+    process = navvi_watch(trial, stdout=its_end)
+    try:
+        times = times_of(os.fdopen(terminal), 3)
+    finally:
+        os.close(its_end)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+    assert times[-1] - times[0] > 0.9 * 2 * 0.7
 
 
 def test_who_reads_the_beginning_alone_gets_no_error(trial):
