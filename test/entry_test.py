@@ -26,6 +26,16 @@ def sentences(result):
     return [line for line in result.stderr.splitlines() if not line.startswith(("navvi: building:", "navvi: waiting for another build"))]
 
 
+def test_a_python_without_its_library_ends_in_a_sentence():
+    """As of python3-minimal alone, where apt cannot help."""
+    hidden = "; ".join(f"mount -t tmpfs none {path}" for path in pathlib.Path("/usr/lib").glob("python3*/xml"))
+    without = ["unshare", "--map-root-user", "--mount", "sh", "-e", "-c", f"{hidden}; exec \"$@\"", "sh"]
+    if subprocess.run([*without, "true"], capture_output=True).returncode:
+        pytest.skip("no mount namespace is allowed here")
+    result = subprocess.run([*without, str(ROOT / "navvi"), "help"], capture_output=True, text=True, timeout=60)
+    assert (result.returncode, result.stderr) == (1, "navvi: Python lacks its library; \"apt install python3\" installs it.\n"), result
+
+
 def test_shell_scripts_are_clean():
     subprocess.run(["shellcheck", ROOT / ".ci" / "run", ROOT / "navvi"], check=True)
     whole = "".join(path.read_text() for path in [*sorted((ROOT / "navvi_cli/shell").glob("*.bash")), ROOT / "navvi_cli/shell/run"])
@@ -55,6 +65,7 @@ def test_shell_scripts_are_clean():
     (["run", *SIMULATED, "seed:=1", "seed:=2"], "given twice"),
     (["run", *SIMULATED, "sim_parameters:={}"], "is unknown"),
     (["run", *SIMULATED, "see[d]:=1"], "\"see[d]\" is unknown"),
+    (["run", *SIMULATED, "nav/mesh/robot_height:=0.5"], "less than 0.8 m, the height of the simulated robot"),
     (["run", *SIMULATED, "sim/seed:=7"], "\"sim/seed\" would have no effect; allowed is seed:=7."),
     (["run", *SIMULATED, "trial/limit:=3"], "\"trial/limit\" would have no effect; allowed is limit:=3."),
     (["run", *SIMULATED, "trial/version:=2"], "\"trial/version\" cannot be given: the session itself sets it;"),

@@ -10,6 +10,7 @@ Exit codes
 """
 import importlib.util
 import os
+import re
 import time
 from pathlib import Path
 
@@ -78,6 +79,9 @@ def complete(words):
 
 def check(words):
     """What can be refused without a program."""
+    for height in (word.partition(":=")[2] for word in words.parameters if word.startswith("nav/mesh/robot_height:=")):
+        if re.fullmatch(r"0\.[0-7]\d*", height):
+            fail("nav/mesh/robot_height is less than 0.8 m, the height of the simulated robot; allowed is that or more.", 2)
     if words["operator"] == "simulated" and words["lesson"] != "none":
         fail("the tutorial needs a person: a game controller, or a display for the keyboard, such as with operator:=keyboard.", 2)
     if words["operator"] == "simulated" and words["speech"] == "false" and "feedback/lead:=hand" not in words.parameters:
