@@ -138,25 +138,26 @@ TEST_F(PerceptionNodeTest, sees_the_room_a_mover_and_what_a_camera_adds) {
   EXPECT_NEAR(obstacles_->obstacles[0].pose.position.x, 11.5, 0.3);
   disc_y_.reset();
 
-  // A box too low for the lidar.
-  ASSERT_TRUE(until([this] {
-    sensor_msgs::PointCloud2 cloud;
-    cloud.header.stamp = ros::Time::now();
-    cloud.header.frame_id = "base_link";
-    sensor_msgs::PointCloud2Modifier modifier(cloud);
-    modifier.setPointCloud2FieldsByString(1, "xyz");
-    modifier.resize(100);
-    sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
-    for (int i = 0; i < 100; ++i, ++x) {
-      x[0] = 1.0F;
-      x[1] = static_cast<float>(i % 10) * 0.03F;
-      x[2] = static_cast<float>(i / 10) * 0.01F;
-    }
-    clouds_.publish(cloud);
-    for (const auto& thing : near_->things)
-      if (std::abs(thing.gap - 0.65) < 0.1) return true;
-    return false;
-  }));
+  // A box too low for the lidar, and one that hangs lower than navigation's robot_height of 1.2 m.
+  for (const auto& [ahead, foot] : {std::pair{1.0F, 0.0F}, {1.6F, 1.0F}})
+    ASSERT_TRUE(until([this, ahead = ahead, foot = foot] {
+      sensor_msgs::PointCloud2 cloud;
+      cloud.header.stamp = ros::Time::now();
+      cloud.header.frame_id = "base_link";
+      sensor_msgs::PointCloud2Modifier modifier(cloud);
+      modifier.setPointCloud2FieldsByString(1, "xyz");
+      modifier.resize(100);
+      sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
+      for (int i = 0; i < 100; ++i, ++x) {
+        x[0] = ahead;
+        x[1] = static_cast<float>(i % 10) * 0.03F;
+        x[2] = foot + static_cast<float>(i / 10) * 0.01F;
+      }
+      clouds_.publish(cloud);
+      for (const auto& thing : near_->things)
+        if (std::abs(thing.gap - (ahead - 0.35F)) < 0.1) return true;
+      return false;
+    }));
 }
 
 TEST_F(PerceptionNodeTest, T4_a_transform_from_the_future_keeps_out_none_that_follow) {

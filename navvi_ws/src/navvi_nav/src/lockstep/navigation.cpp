@@ -20,6 +20,7 @@ NavigationConfig& NavigationConfig::operator=(const NavigationConfig& other) {
 NavigationConfig::~NavigationConfig() = default;
 
 void NavigationConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
+double NavigationConfig::robot_height() const { return values_->planner.mesh.robot_height; }
 
 struct Navigation::Parts {
   Parts(const guide::NavigatorConfig& config, const navvi_files::Cache* cache)

@@ -4,6 +4,7 @@
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_sim/setup/course.hpp>
+#include <navvi_types/headroom.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <stdexcept>
 #include <utility>
@@ -17,6 +18,22 @@ constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer and of the 
 constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
 constexpr double kMapBy = 30.0;  // s; a robot's own sensors have shown some floor long before
 constexpr double kGoalAt = 1.0;  // s; trial_node sets the goal when every part is there
+
+/// With the height that the path leads under, as perception_node takes it.
+navvi_perception::see::PerceptionConfig perception_of(const ClosedLoopConfig& config) {
+  navvi_perception::see::PerceptionConfig perception = config.perception;
+  perception.set_robot_height(config.nav.robot_height());
+  return perception;
+}
+
+/// \throws ConfigError where the path may lead under what the robot hits
+const ClosedLoopConfig& with_headroom(const ClosedLoopConfig& config) {
+  if (config.nav.robot_height() < navvi_types::kHeadroom)
+    throw navvi_config::ConfigError(
+        "nav/mesh/robot_height is less than 0.8 m, the height of the simulated robot; allowed is "
+        "that or more.");
+  return config;
+}
 
 }  // namespace
 
@@ -42,12 +59,12 @@ ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_files::
   if (config.sim.sensing == "truth")
     map = navvi_sim::node::to_msg(course.map, ros::Time());
   else
-    senses.emplace(config.sim, config.perception, world, course.map);
+    senses.emplace(config.sim, perception_of(config), world, course.map);
 }
 
 ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
                        const navvi_files::Cache* cache)
-    : config_(config),
+    : config_(with_headroom(config)),
       setting_(config, cache),
       session_(setting_.world, config.sim.life, setting_.scenario.start,
                static_cast<std::uint64_t>(config.sim.seed)),

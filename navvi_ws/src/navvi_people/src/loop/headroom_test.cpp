@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <navvi_config/reader.hpp>
 #include <navvi_types/cue_kind.hpp>
 
 #include "navvi_people/loop/closed_loop.hpp"
@@ -23,7 +24,8 @@ struct Trial {
   double left = 0.0;  ///< m, to the goal
 };
 
-Trial drive(double bottom, const std::string& sensing) {
+/// \param height  m, of the robot, as navigation has it
+Trial drive(double bottom, const std::string& sensing, const std::string& height = "0.8") {
   const navvi_test::TempFolder folder;
   ClosedLoopConfig config;
   config.sim.world = folder.write(
@@ -34,6 +36,8 @@ Trial drive(double bottom, const std::string& sensing) {
   config.sim.start = "-3,0,0";
   config.sim.goal = "3,0";
   config.sim.sensing = sensing;
+  navvi_config::read(config.nav, navvi_config::read_words({"mesh/robot_height:=" + height}),
+                     "the test");
   ClosedLoop loop(config, NAVVI_PHRASES);
   Trial trial;
   while (loop.time() < 40.0 && loop.step()) {
@@ -69,6 +73,16 @@ TEST(Headroom, is_the_same_to_a_robots_own_sensors) {
     EXPECT_EQ(trial.contacts, 0);
     EXPECT_LT(trial.left, 1.0);
   }
+}
+
+TEST(Headroom, of_a_higher_robot_is_that_of_its_sensors_too_and_none_is_lower_than_the_hull) {
+  for (const double bottom : {0.9, 1.4}) {  // the camera sees no higher lamp in time
+    const Trial trial = drive(bottom, "robot", "1.2");
+    SCOPED_TRACE("a lamp at " + std::to_string(bottom) + " m");
+    EXPECT_EQ(trial.under, bottom >= 1.2);
+    EXPECT_LT(trial.left, 1.0);
+  }
+  EXPECT_THROW(drive(1.0, "truth", "0.5"), navvi_config::ConfigError);
 }
 
 }  // namespace

@@ -88,8 +88,6 @@ void MapConfig::describe(navvi_config::Visitor& visit) {
         "along x and y to each side of the robot; beyond it only the prior map is kept");
   visit(floor, "floor", Range{-100.0, 100.0}, "m", "z of the floor, which is flat, in map");
   visit(low, "low", Range{0.01, 0.5}, "m", "above the floor; what ends lower is floor");
-  visit(high, "high", Range{0.2, 5.0}, "m",
-        "above the floor; what begins higher is over the robot's head");
 }
 
 sight::Prior prior_of(const std::string& file, const MapConfig& config) {

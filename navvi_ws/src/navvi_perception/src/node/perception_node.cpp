@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <navvi_config/ros_parameters.hpp>
+#include <navvi_types/headroom.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
 #include <navvi_types/transform_listener.hpp>
@@ -380,8 +381,11 @@ int main(int argc, char** argv) {
   using navvi_perception::node::NodeConfig;
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
   ros::init(argc, argv, "perception_node");
-  return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
+  return navvi_config::run_node<NodeConfig>([](NodeConfig config) {
     ros::NodeHandle node;
+    // One height for what stands, what is near, and what the path leads under.
+    config.core.set_robot_height(
+        ros::param::param("nav_node/mesh/robot_height", navvi_types::kHeadroom));
     const navvi_perception::node::PerceptionNode perception(node, config);
     ros::spin();
     return 0;

@@ -20,8 +20,6 @@ double approach(double now, double target, double faster, double slower) {
 void RobotConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(radius, "radius", Range{0.1, 1.0}, "m", "radius of the hull");
-  visit(height, "height", Range{0.15, 2.0}, "m",
-        "top of the hull above the floor; what begins higher is neither touched nor near");
   visit(max_speed, "max_speed", Range{0.05, 3.0}, "m/s", "largest speed, forward and back");
   visit.group("imperfections", imperfections);
 }

@@ -20,6 +20,8 @@ class NavigationConfig {
   ~NavigationConfig();
 
   void describe(navvi_config::Visitor& visit);
+  /// m, with its load: what begins higher over the floor does not matter
+  [[nodiscard]] double robot_height() const;
 
  private:
   friend class Navigation;

@@ -23,6 +23,9 @@ class PerceptionConfig {
   void describe(navvi_config::Visitor& visit);
   [[nodiscard]] double resolution() const;    ///< m, of the map
   [[nodiscard]] double robot_radius() const;  ///< m; what is seen within it is the robot itself
+  /// \param height  m, of the robot with its load, as navigation has it: what begins higher over
+  ///                the floor does not matter
+  void set_robot_height(double height);
   /// The OctoMap of a file, .bt or .ot. \throws navvi_config::ConfigError with a sentence
   [[nodiscard]] sight::Prior prior_of(const std::string& file) const;
 
