@@ -337,6 +337,23 @@ def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, 
     assert "nothing takes its place" in printed and "The same holds where result is aborted or invalid: the trial broke off." in printed
 
 
+def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, monkeypatch):
+    monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)
+    hall = "<sdf version='1.6'><world name='w'><include><uri>model://ground_plane</uri></include>{}</world></sdf>"
+    (tmp_path / "hall.sdf").write_text(hall.format(""))
+    plan = small(tmp_path, ("a: {world: easy", "a: {world: hall.sdf"))
+    args = type("Args", (), {"plan": plan.file, "reason": None, "no_worlds": False, "pictures": False})
+    for action in actions.Check, actions.Freeze:
+        with pytest.raises(StudyError) as problem:
+            action.run(args)
+        assert "nothing stands in" in str(problem.value) and str(tmp_path / "hall.sdf") in str(problem.value)
+    (tmp_path / "hall.sdf").write_text(hall.format("<model name='box'><static>1</static><pose>3 0 .5 0 0 0</pose><link name='l'><collision name='c'>"
+                                                   "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model>"))
+    actions.Freeze.run(args)
+    assert study.Study.of(plan.file).progress().freezes
+
+
 def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):
     from navvi_study import measures
     row = {"counts": "yes", "result": "timeout", "path_length_m": "5.0", "first_path_length_m": "10.0"}

@@ -16,6 +16,7 @@ constexpr double kStoreyShare = 0.25;  // of the largest level's area, that a st
 constexpr double kSlabShare = 0.5;     // of the largest level below it, that a slab has at least
 constexpr double kLeastFloor = 4.0;    // m^2: what is level and smaller stands on a floor
 constexpr double kStands = 0.3;        // m, from a storey's level to the foot of what stands on it
+constexpr double kRises = 0.1;         // m above the floor, of what stands on it
 constexpr double kSlab = 0.25;         // of a storey's area, that a slab on it covers at least
 constexpr double kMost = 0.5;          // likewise, that makes it the floor whatever stands on it
 
@@ -205,6 +206,14 @@ Eigen::AlignedBox3d bounds_of(const std::vector<Thing>& things) {
     for (const Shape& shape : thing.shapes)
       bounds.extend(bounds_of(shape.geometry, thing.pose * shape.pose));
   return bounds;
+}
+
+std::vector<Eigen::AlignedBox3d> standing_in(const WorldDescription& world) {
+  std::vector<Eigen::AlignedBox3d> standing;
+  for (const Thing& thing : world.things)
+    if (const auto bounds = bounds_of({thing}); bounds.max().z() > world.floor_height + kRises)
+      standing.push_back(bounds);
+  return standing;
 }
 
 }  // namespace navvi_sim

@@ -28,4 +28,7 @@ namespace navvi_sim {
 /// m, in map: the box along the axes that holds all of `things`; empty for none.
 [[nodiscard]] Eigen::AlignedBox3d bounds_of(const std::vector<Thing>& things);
 
+/// m, in map: the boxes of the things that rise above the floor by more than 0.1 m.
+[[nodiscard]] std::vector<Eigen::AlignedBox3d> standing_in(const WorldDescription& world);
+
 }  // namespace navvi_sim

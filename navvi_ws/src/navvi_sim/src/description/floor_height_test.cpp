@@ -39,5 +39,16 @@ TEST(FloorHeight, is_not_the_top_of_a_platform_in_a_hall) {
   EXPECT_NEAR(main_floor_height(things).value(), 0.0, 1e-9);
 }
 
+TEST(FloorHeight, is_what_things_that_stand_rise_above) {
+  WorldDescription world;
+  world.floor_height = 1.0;
+  world.things = {box(ThingClass::floor, {0, 0, 0.5}, {24, 24, 1}),
+                  box(ThingClass::other, {3, 0, 1.04}, {1, 1, 0.08}), Thing{}};
+  EXPECT_TRUE(standing_in(world).empty());
+  world.things.push_back(box(ThingClass::box, {5, 0, 1.2}, {1, 1, 0.4}));
+  ASSERT_EQ(standing_in(world).size(), 1U);
+  EXPECT_NEAR(standing_in(world)[0].max().z(), 1.4, 1e-9);
+}
+
 }  // namespace
 }  // namespace navvi_sim

@@ -26,7 +26,6 @@ constexpr double kHeadroom = 2.0;        // m, below another storey
 constexpr double kSlab = 0.35;           // m, between a storey's surface and the foot of its slab
 constexpr double kCarried = 0.05;        // m, between a thing and what it stands on
 constexpr double kCarries = 0.5;         // of the outlines of what stands, that a floor carries
-constexpr double kStands = 0.1;          // m above the floor, that it rises at least
 
 /// Whether a box meets a shape, a mesh by the boxes of its triangles.
 bool meets(const Thing& thing, const Shape& shape, const Eigen::AlignedBox3d& box) {
@@ -134,11 +133,10 @@ void SdfThings::refuse_floor(const std::filesystem::path& file, const std::strin
 /// A floor carries more than half of what stands, by the area of outlines: else it is the bottom of
 /// a rack, and the true floor is missing.
 void SdfThings::judge_what_stands(double height, const std::filesystem::path& file) {
-  std::vector<Eigen::AlignedBox3d> floors, standing;
+  std::vector<Eigen::AlignedBox3d> floors;
   for (const Thing& thing : loaded.world.things) {
     Eigen::AlignedBox3d bounds = bounds_of({thing});
     if (bounds.isEmpty()) continue;
-    if (bounds.max().z() > height + kStands) standing.push_back(bounds);
     if (thing.thing_class != ThingClass::floor ||
         level_area(thing, height - kDrivenOver, height + kDrivenOver) <= 0.0)
       continue;
@@ -153,6 +151,7 @@ void SdfThings::judge_what_stands(double height, const std::filesystem::path& fi
       }
     floors.push_back(bounds);
   }
+  const std::vector<Eigen::AlignedBox3d> standing = standing_in(loaded.world);
   if (standing.empty()) {
     notes_.add(file.string(), "NOTHING STANDS in this world: a trial there measures nothing");
     return;

@@ -12,6 +12,7 @@
 #include <navvi_types/headroom.hpp>
 #include <sstream>
 
+#include "description/floor_height.hpp"
 #include "description/footprint.hpp"
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
@@ -127,6 +128,7 @@ JsonFields fields_of(const Request& request, const scenario::StartAndGoal& scena
     for (const Thing& thing : world.things) things.push_back(drawing_of(thing));
   const Pose2& start = scenario.start;
   return {{"counts", counts_of(world)},
+          {"standing", std::to_string(standing_in(world).size())},
           {"world", json_text(world.name)},
           {"seed", std::to_string(request.config.session.seed)},
           {"world hash", json_text(world_hash(world))},

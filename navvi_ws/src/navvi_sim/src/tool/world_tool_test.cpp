@@ -40,6 +40,11 @@ TEST_F(WorldTool, prints_what_a_session_would_make_of_a_world) {
   EXPECT_NE(answer.text.find("\"world\": \"busy\", \"seed\": 2, "), std::string::npos);
   EXPECT_NE(answer.text.find("\"start x m, y m, yaw rad\": ["), std::string::npos);
   EXPECT_NE(answer.text.find("\"things\": []"), std::string::npos);
+  EXPECT_EQ(answer.text.find("\"standing\": 0,"), std::string::npos) << answer.text;
+  std::ofstream(folder_ / "plane.world")
+      << "<sdf version='1.6'><world name='w'><include><uri>model://ground_plane</uri></include>"
+         "</world></sdf>";
+  EXPECT_NE(run("check plane.world").text.find("\"standing\": 0,"), std::string::npos);
 }
 
 TEST_F(WorldTool, prints_the_corners_of_all_things_to_be_drawn) {

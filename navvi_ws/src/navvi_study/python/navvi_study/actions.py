@@ -48,6 +48,7 @@ class Check:
         print("\n".join(overview.schedule(planned)))
         if args.no_worlds:
             return 0
+        worlds.require_things(planned, TOOLS["tool"]("navvi_sim", "world_tool"))
         lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
         print("\n".join(["", *lines]))
         for picture in worlds.pictures(planned, TOOLS["draw"]) if args.pictures else []:
@@ -72,8 +73,10 @@ class Freeze:
 
     @staticmethod
     def run(args):
-        from . import overview
+        from . import overview, worlds
         study = opened(args)
+        if any(map(study.plan.world_file, study.plan.worlds)):
+            worlds.require_things(study.plan, TOOLS["tool"]("navvi_sim", "world_tool"))
         changes = study.freeze(TOOLS["version"](), args.reason)
         print(f"navvi: the plan is frozen: {study.plan.hash()}")
         for change in changes or []:

@@ -1,6 +1,7 @@
 """The plan's worlds as the reference driver meets them: the simulated person without errors, in the loop without ROS."""
 import csv
 import io
+import json
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -25,6 +26,16 @@ def drive(plan, trials_bench, jobs=2):
 
     with ThreadPoolExecutor(jobs) as pool:
         return dict(zip(worlds, pool.map(one, worlds)))
+
+
+def require_things(plan, world_tool):
+    """Raises StudyError for a world's file in which nothing stands; worlds with a name are drawn full."""
+    for file in sorted({plan.world_file(world) for world in plan.worlds} - {None}):
+        result = subprocess.run([str(world_tool), "check", str(file)], capture_output=True, text=True, errors="replace", check=False)
+        if result.returncode != 0:
+            raise StudyError(f"{plan.file}: no trial can be driven in {file}: {result.stderr.strip()}")
+        if not json.loads(result.stdout)["standing"]:
+            raise StudyError(f"{plan.file}: nothing stands in {file}, and a trial there measures nothing; allowed are worlds with things on their floor.")
 
 
 def pictures(plan, draw):

@@ -200,7 +200,7 @@ void LoopTrial::begin() {
 /// Without a result while the trial goes on.
 trial::Ending LoopTrial::ending() const {
   if (!begun_) return {};
-  if (monitor_.reached()) return {"reached", "goal_reached", now()};
+  if (const auto& arrival = monitor_.arrival()) return {arrival->result, arrival->reason, now()};
   if (const auto why = monitor_.refused()) return {"refused", *why, now()};
   if (loop_.person().gave_up()) return {"aborted", "ended_by_person", now()};
   if (const auto deadline = flow_.deadline(); deadline && now() >= *deadline)

@@ -96,7 +96,8 @@ class Recount {
       for (const auto& item : rosbag::View(bag, ros::TIME_MIN, over_)) see(item, before);
     }
     record::Fields fields = monitor_.end_fields();
-    const bool reached = monitor_.reached().has_value();
+    const auto& arrival = monitor_.arrival();
+    const bool reached = arrival && arrival->result == "reached";
     const std::string told = end_.fields.get("result");
     // What the messages show counts; only ends that no message shows are taken on trust.
     const bool contradicts = told != "invalid" && reached != (told == "reached");

@@ -60,10 +60,10 @@ std::string TrialFlow::reason_of_stop(const Signs& signs) {
   return "stopped_by_signal";
 }
 
-Ending TrialFlow::last_word(Ending ending, bool reached, bool disk_full) {
-  if (reached && ending.result != "invalid") {
-    ending.result = "reached";
-    ending.reason = "goal_reached";
+Ending TrialFlow::last_word(Ending ending, const std::optional<Ending>& arrival, bool disk_full) {
+  if (arrival && ending.result != "invalid") {
+    ending.result = arrival->result;
+    ending.reason = arrival->reason;
   }
   if (disk_full) ending.result = "invalid";
   return ending;

@@ -59,8 +59,9 @@ class TrialFlow {
   /// The reason of a trial that is ended by a signal: a part that had been silent before, else the
   /// signal. roslaunch ends a session whose simulator has crashed just as one that a hand stops.
   [[nodiscard]] static std::string reason_of_stop(const Signs& signs);
-  /// What counts in the end: a goal that was reached just before, but never a record with holes.
-  [[nodiscard]] static Ending last_word(Ending ending, bool reached, bool disk_full);
+  /// What counts in the end: an arrival just before, but never a record with holes.
+  [[nodiscard]] static Ending last_word(Ending ending, const std::optional<Ending>& arrival,
+                                        bool disk_full);
 
  private:
   std::int64_t limit_;

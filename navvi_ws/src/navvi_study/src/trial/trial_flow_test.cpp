@@ -58,10 +58,11 @@ TEST(TrialFlow, each_loss_ends_the_trial_with_its_own_reason) {
 }
 
 TEST(TrialFlow, a_goal_reached_just_before_another_end_counts_but_not_with_holes_in_the_record) {
-  EXPECT_EQ(TrialFlow::last_word({"timeout", "limit", 1}, true, false).result, "reached");
-  EXPECT_EQ(TrialFlow::last_word({"timeout", "limit", 1}, false, false).result, "timeout");
-  EXPECT_EQ(TrialFlow::last_word({"invalid", "disk_full", 1}, true, false).result, "invalid");
-  EXPECT_EQ(TrialFlow::last_word({"reached", "goal_reached", 1}, true, true).result, "invalid");
+  const Ending reached{"reached", "goal_reached", 1}, late{"timeout", "limit", 1};
+  EXPECT_EQ(TrialFlow::last_word(late, reached, false).result, "reached");
+  EXPECT_EQ(TrialFlow::last_word(late, std::nullopt, false).result, "timeout");
+  EXPECT_EQ(TrialFlow::last_word({"invalid", "disk_full", 1}, reached, false).result, "invalid");
+  EXPECT_EQ(TrialFlow::last_word(reached, reached, true).result, "invalid");
 }
 
 TEST(GoalTries, sends_a_goal_three_times_two_seconds_apart_then_gives_up) {

@@ -382,7 +382,7 @@ void TrialKeeper::end(const Ending& ending) {
 void TrialKeeper::write_end() {
   keep_track(ending_.stamp);
   // The goal may have been reached just before the end that was called first.
-  ending_ = TrialFlow::last_word(ending_, monitor_.reached().has_value(), kept_.journal->full());
+  ending_ = TrialFlow::last_word(ending_, monitor_.arrival(), kept_.journal->full());
   record::Fields fields = monitor_.end_fields();
   fields.set("result", ending_.result).set("reason", ending_.reason);
   enter(Phase::closing);

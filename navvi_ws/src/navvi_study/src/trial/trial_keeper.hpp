@@ -207,8 +207,8 @@ void TrialKeeper::observe(const Report& report) {
   }
   // At once: a report that is stamped later may be the next to come.
   if (phase_ != Phase::running) return;
-  if (monitor_.reached()) {
-    end({"reached", "goal_reached", monitor_.latest()});
+  if (const auto& arrival = monitor_.arrival()) {
+    end({arrival->result, arrival->reason, monitor_.latest()});
   } else if (monitor_.arrived_elsewhere()) {
     end({"invalid", "arrived_elsewhere", monitor_.latest()});
   } else if (const auto why = monitor_.refused()) {

@@ -85,7 +85,7 @@ void TrialMonitor::start(const TrialStart& start) {
   stuck_cues_.clear();
   goal_.taken = false;
   guided_.state.reset();
-  goal_.reached.reset();
+  goal_.arrival.reset();
   goal_.arrived_elsewhere = false;
   goal_.refused.reset();
   world_restarted_ = false;
@@ -96,7 +96,7 @@ Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp)
   start_->goal = goal;
   guided_.before = guided_.guidance ? guided_.guidance : guided_.before;
   goal_.taken = false;
-  goal_.reached.reset();
+  goal_.arrival.reset();
   goal_.arrived_elsewhere = false;
   goal_.refused.reset();
   return {"GOAL_SET", place().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp, true};
@@ -309,7 +309,7 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
     }
   }
   count_plans(guidance, events);
-  if (guidance.state == State::arrived && !goal_.reached && !goal_.arrived_elsewhere)
+  if (guidance.state == State::arrived && !goal_.arrival && !goal_.arrived_elsewhere)
     arrive(guidance, events);
   if (guidance.state == State::goal_refused && !goal_.refused) {
     goal_.refused = to_string(guidance.refusal);
@@ -329,9 +329,14 @@ void TrialMonitor::arrive(const Guidance& guidance, std::vector<Event>& events) 
     events.push_back({"ARRIVED_ELSEWHERE", fields.set("distance", away), guidance.stamp});
     return;
   }
-  goal_.reached = guidance.stamp;
+  goal_.arrival = moved() ? Ending{"reached", "goal_reached", guidance.stamp}
+                          : Ending{"refused", "reached_at_start", guidance.stamp};
   fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
   events.push_back({"GOAL_REACHED", fields, guidance.stamp});
+}
+
+bool TrialMonitor::moved() const {
+  return tally_.path_length > kMoved || tally_.turned > kTurned;
 }
 
 void TrialMonitor::count_plans(const Guidance& guidance, std::vector<Event>& events) {
@@ -416,7 +421,7 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
   record::Fields fields = place();
   fields.set("reason", to_string(reason));
   if (before != DriveState::Reason::none) fields.set("held", "yes");
-  fields.set("moved", tally_.path_length > kMoved || tally_.turned > kTurned ? "yes" : "no");
+  fields.set("moved", moved() ? "yes" : "no");
   events.push_back({"SAFE_STOP", fields, drive.stamp, true});
   return events;
 }

@@ -16,6 +16,7 @@
 
 #include "navvi_config/field.hpp"
 #include "record/row.hpp"
+#include "trial/trial_flow.hpp"
 
 namespace navvi_study {
 using navvi_types::Contact;
@@ -146,8 +147,9 @@ class TrialMonitor {
   [[nodiscard]] record::Fields end_fields() const;
   /// The guide shows a path to the goal, has arrived, or refused.
   [[nodiscard]] bool goal_taken() const { return goal_.taken; }
-  /// ns, when the goal was reached
-  [[nodiscard]] std::optional<std::int64_t> reached() const { return goal_.reached; }
+  /// How the trial ends, once the guide said that the goal is reached and odometry agrees: reached,
+  /// or refused where the robot had neither driven nor turned, as such a trial measures nothing.
+  [[nodiscard]] const std::optional<Ending>& arrival() const { return goal_.arrival; }
   /// The guide said that the goal is reached, and by the odometry the robot is elsewhere.
   [[nodiscard]] bool arrived_elsewhere() const { return goal_.arrived_elsewhere; }
   /// why the goal was refused
@@ -187,7 +189,7 @@ class TrialMonitor {
   };
   struct GoalFate {
     bool taken = false;
-    std::optional<std::int64_t> reached;
+    std::optional<Ending> arrival;
     bool arrived_elsewhere = false;
     std::optional<std::string> refused;
   };
@@ -199,6 +201,7 @@ class TrialMonitor {
   void collision(const Contact* contact, bool shelf, std::int64_t stamp,
                  std::vector<Event>& events);
   void arrive(const Guidance& guidance, std::vector<Event>& events);
+  [[nodiscard]] bool moved() const;  ///< in this trial, driven or turned
   void count_plans(const Guidance& guidance, std::vector<Event>& events);
   /// The row for a cue that begins to be spoken, played or felt, or that ends.
   [[nodiscard]] std::optional<Event> row_of(const CueEvent& cue);

@@ -56,7 +56,7 @@ class Monitor : public testing::Test {
 TEST_F(Monitor, says_nothing_of_what_was_before_the_trial) {
   EXPECT_TRUE(monitor_.observe(contact(9.0, 1, "shelf", 1, 0)).empty());
   EXPECT_TRUE(monitor_.observe(guidance(10.0, State::arrived)).empty());
-  EXPECT_FALSE(monitor_.reached());
+  EXPECT_FALSE(monitor_.arrival());
 }
 
 TEST_F(Monitor, tells_shelves_from_everything_else) {
@@ -185,7 +185,7 @@ TEST_F(Monitor, T4_an_arrival_that_the_odometry_contradicts_is_not_recorded_as_r
   const auto events = monitor_.observe(guidance(12.0, State::arrived, 2));
   ASSERT_EQ(types(events), (Names{"GUIDANCE", "ARRIVED_ELSEWHERE"}));
   EXPECT_EQ(events[1].fields.get("distance"), "8.210");
-  EXPECT_FALSE(monitor_.reached());
+  EXPECT_FALSE(monitor_.arrival());
   EXPECT_TRUE(monitor_.arrived_elsewhere());
   EXPECT_TRUE(monitor_.observe(guidance(12.1, State::arrived, 3)).empty()) << "told once";
 }
@@ -196,6 +196,22 @@ TEST_F(Monitor, records_an_arrival_within_the_range_as_reached) {
   EXPECT_EQ(types(monitor_.observe(guidance(12.0, State::arrived, 2))),
             (Names{"GUIDANCE", "GOAL_REACHED"}));
   EXPECT_FALSE(monitor_.arrived_elsewhere());
+}
+
+TEST_F(Monitor, does_not_call_a_goal_reached_where_the_robot_stands_at_the_start) {
+  for (const double driven : {0.0, 0.2}) {
+    monitor_.start({10 * kSecond, {0.4, 0.0}});
+    (void)monitor_.observe(Odometry{11 * kSecond, {{0.2 - driven, 0.0}}});
+    (void)monitor_.observe(guidance(11.5, State::following));
+    (void)monitor_.observe(Odometry{12 * kSecond, {{0.2, 0.0}}});
+    Guidance there = guidance(12.0, State::arrived, 2);
+    there.goal = {0.4, 0.0};
+    there.plans = driven > 0.0 ? 3 : 2;
+    (void)monitor_.observe(there);
+    ASSERT_TRUE(monitor_.arrival());
+    EXPECT_EQ(monitor_.arrival()->result, driven > 0.0 ? "reached" : "refused");
+    EXPECT_EQ(monitor_.arrival()->reason, driven > 0.0 ? "goal_reached" : "reached_at_start");
+  }
 }
 
 TEST_F(Monitor, wants_its_goal_set_again_where_guidance_was_started_anew) {
@@ -213,11 +229,11 @@ TEST_F(Monitor, does_not_take_the_last_goals_arrival_for_its_own) {
   (void)monitor.observe(guidance(9.9, State::arrived));
   monitor.start({10 * kSecond, {5.0, 0.0}});
   (void)monitor.observe(guidance(10.1, State::arrived, 2));
-  EXPECT_FALSE(monitor.reached());
+  EXPECT_FALSE(monitor.arrival());
   auto fresh = guidance(10.2, State::arrived, 3);
   fresh.plans = 2;
   (void)monitor.observe(fresh);
-  EXPECT_TRUE(monitor.reached());
+  EXPECT_TRUE(monitor.arrival());
 }
 
 TEST_F(Monitor, does_not_take_another_goals_path_for_its_own) {
