@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
+#include <sstream>
 #include <tuple>
 #include <unordered_map>
 
@@ -15,6 +17,13 @@ namespace {
 /// Children on the low side of x, y and z; the others are a shift higher.
 constexpr unsigned kLowSide[3] = {0x55U, 0x33U, 0x0fU};
 constexpr int kBits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // that are set
+
+/// m, to the next 0.01 m.
+std::string rounded_up(double edge) {
+  std::ostringstream text;
+  text << std::ceil(100.0 * edge) / 100.0;
+  return text.str();
+}
 
 }  // namespace
 
@@ -87,7 +96,9 @@ void HeightField::measure(const Voxels& voxels, const std::optional<Area>& wante
   const double stacked = kFreeRuns + kRunsANode * static_cast<double>(voxels.octets.size());
   if (columns > kMaxCells)
     error_ = "the map spreads over " + millions(columns) + " columns of voxels; " +
-             millions(kMaxCells) + " are allowed";
+             millions(kMaxCells) + " are allowed, as with voxels of " +
+             rounded_up(voxels.resolution * std::sqrt(columns / kMaxCells)) +
+             " m (octomap/resolution of the simulator)";
   else if (runs > kMaxRuns)
     error_ = "the map has " + millions(runs) + " runs of voxels in its columns; " +
              millions(kMaxRuns) + " are allowed";

@@ -191,7 +191,8 @@ TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
   EXPECT_EQ(survey_map(Voxels{"", 0.05, {}}, {}).error, "the map has no occupied voxel");
   Voxels wide{"", 0.05, {{0, 0, 32768, 0, 1}, {65000, 65000, 32768, 0, 1}}};
   EXPECT_EQ(survey_map(wide, {}).error,
-            "the map spreads over 4225 million columns of voxels; 50 million are allowed");
+            "the map spreads over 4225 million columns of voxels; 50 million are allowed, as with "
+            "voxels of 0.46 m (octomap/resolution of the simulator)");
   Voxels tall{"", 0.05, {{32768, 32768, 0, 0, 1}, {32768, 32768, 65000, 0, 1}}};
   EXPECT_EQ(survey_map(tall, {}).error, "the map is 65001 voxels tall; 30000 are allowed");
   Voxels layered{"", 0.05, {}};  // a few kB of a message

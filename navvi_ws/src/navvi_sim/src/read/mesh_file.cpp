@@ -7,6 +7,7 @@
 
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -24,6 +25,7 @@ constexpr std::uintmax_t kMaxBytes = 200'000'000;
 constexpr std::size_t kMaxTriangles = 1'000'000;  // assimp takes 0.5 kB for each
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMaxDepth = 200;               // of nodes
+constexpr float kLeastExtent = 1e-3F;        // m
 constexpr std::size_t kNamed = 10;           // parts in a sentence
 constexpr std::uintmax_t kStlHead = 84;      // bytes of a binary .stl before its triangles
 constexpr std::uintmax_t kStlTriangle = 50;  // bytes
@@ -133,6 +135,16 @@ Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
   return result;
 }
 
+/// Refuses corners that are no numbers, which assimp would join with others.
+void check_numbers(const aiScene& scene, const std::filesystem::path& file) {
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& piece = *scene.mMeshes[i];
+    for (unsigned k = 0; k < piece.mNumVertices; ++k)
+      if (const aiVector3D& v = piece.mVertices[k]; !std::isfinite(v.x + v.y + v.z))
+        refuse(file, "has a corner that is not of three numbers; allowed are finite ones");
+  }
+}
+
 /// Gathers the triangles of a scene, or of its parts of one name.
 class MeshBuilder {
  public:
@@ -201,9 +213,11 @@ class MeshBuilder {
   }
 
   void place() {
-    if (!part_.centred) return;
     Eigen::AlignedBox3f bounds;
     for (const Eigen::Vector3f& vertex : mesh_.vertices) bounds.extend(vertex);
+    if (bounds.sizes().maxCoeff() < kLeastExtent)
+      refuse(file_, "is less than 1 mm long, wide and high; its unit, scale or nodes may be wrong");
+    if (!part_.centred) return;
     const Eigen::Vector3f centre = bounds.center();
     for (Eigen::Vector3f& vertex : mesh_.vertices) vertex -= centre;
   }
@@ -239,14 +253,17 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as Gazebo does
   const aiScene* scene = nullptr;
   std::string reason;
-  constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices;
   try {
     if (extension == ".dae") {
       const std::string plain = plain_collada(file);
       check_collada(file, plain);
-      scene = importer.ReadFileFromMemory(plain.data(), plain.size(), kSteps, "dae");
+      scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "dae");
     } else {
-      scene = importer.ReadFile(file.string(), kSteps);
+      scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+    }
+    if (scene != nullptr) {
+      check_numbers(*scene, file);
+      scene = importer.ApplyPostProcessing(aiProcess_JoinIdenticalVertices);
     }
     reason = importer.GetErrorString();
   } catch (const WorldError&) {

@@ -148,6 +148,23 @@ TEST_F(MeshFile, refuses_what_is_neither_dae_nor_stl_nor_obj) {
             "");
 }
 
+TEST_F(MeshFile, without_extent_or_with_corners_that_are_no_numbers_is_refused) {
+  const auto stl = [](const std::string& corner) {
+    return "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex " +
+           corner + "\nendloop\nendfacet\nendsolid a\n";
+  };
+  EXPECT_EQ(refusal("good.stl", stl("0 1 0")), "");
+  EXPECT_NE(refusal("nan.stl", stl("nan 1 0")), "");
+  EXPECT_NE(refusal("inf.stl", stl("0 inf 0")), "");
+  const auto node = [](const std::string& inside) {
+    return collada("", "<node id='n'>" + inside + kPiece + "</node>");
+  };
+  const std::string zeros = "<matrix>0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1</matrix>";
+  EXPECT_NE(refusal("zeros.dae", node(zeros)).find("less than 1 mm"), std::string::npos);
+  EXPECT_NE(refusal("tiny.dae", node("<scale>1e-30 1e-30 1e-30</scale>")).find("less than 1 mm"),
+            std::string::npos);
+}
+
 TEST_F(MeshFile, with_a_face_of_very_many_corners_or_more_values_than_bytes_is_refused) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path();
   std::string face = "f";

@@ -27,10 +27,12 @@ TEST_F(SavedWorld, has_its_models_where_and_as_large_as_the_state_says) {
            model("wall_2", "<box><size>2 0.2 2</size></box>", "0 -5 1 0 0 0") +
            state("<model name='wall_1'><pose>0 3 1 0 0 0</pose><scale>4 1 1</scale></model>"
                  "<model name='wall_2'><pose>0 -5 1 0 0 0</pose><scale>1 1 1</scale></model>"
-                 "<model name='none'><pose>0 0 0 0 0 0</pose></model>"));
+                 "<model name='none'><pose>0 0 0 0 0 0</pose></model><insertions/>"));
   expect_box(loaded, "wall_1", {-4, 2.9, 0}, {4, 3.1, 2});
   expect_box(loaded, "wall_2", {-1, -5.1, 0}, {1, -4.9, 2});
   EXPECT_TRUE(has_note(loaded, {"moves 1 models and links, and scales 1 models"}));
+  EXPECT_TRUE(has_note(loaded, {"the saved state has the model 'none', which the world lacks"}));
+  EXPECT_TRUE(has_note(loaded, {"the saved state has <insertions>, which the world lacks"}));
 }
 
 TEST_F(SavedWorld, has_links_and_nested_models_where_the_state_says_in_map) {

@@ -92,7 +92,11 @@ bool flag(const XmlElement& element, const std::string& child, bool otherwise) {
 Eigen::Isometry3d pose_value(const XmlElement& pose) {
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
   if (pose.text.empty()) return result;
-  const bool quaternion = pose.attribute("rotation_format") == "quat_xyzw";
+  const std::string format = pose.attribute("rotation_format");
+  const bool quaternion = format == "quat_xyzw";
+  if (!quaternion && !format.empty() && format != "euler_rpy")
+    refuse(pose, "the rotation_format of <pose> is \"" + shortened(format) +
+                     "\"; allowed are euler_rpy and quat_xyzw");
   std::vector<double> v = numbers(pose, quaternion ? 7 : 6);
   result.translation() = Eigen::Vector3d(v[0], v[1], v[2]);
   for (const double value : result.translation())

@@ -104,6 +104,11 @@ class WorldReader {
                     &element);
     for (const XmlElement& saved : state.children) {
       const auto element = named.find({saved.name, name_of(saved)});
+      if (saved.name == "insertions" || (saved.name == "model" && element == named.end()))
+        notes_.add(saved, "the saved state has " +
+                              (saved.name == "model" ? "the model '" + name_of(saved) + "'"
+                                                     : std::string("<insertions>")) +
+                              ", which the world lacks, and which is not taken over");
       if (element == named.end() || (saved.name != "model" && saved.name != "link")) continue;
       saved_[element->second] = &saved;
       keep_state(saved, *element->second);
@@ -288,6 +293,9 @@ class WorldReader {
       return;
     }
     SdfGeometry read = shapes_.read(*geometry, pose, scale);
+    if (geometry->children.size() > 1)
+      notes_.add(*geometry, "a <geometry> of '" + thing.name +
+                                "' has several shapes, and one is allowed; all are taken");
     const std::optional<ThingClass> look = own_class(collision, "look");
     for (Shape& shape : read.shapes) {
       shape.look = look;

@@ -23,7 +23,10 @@ enum class Kind { layout, sdf };
 
 /// \throws WorldError if `spec` is no file that may hold a world
 Kind kind_of(const std::string& spec) {
-  const std::string ending = lower_case(std::filesystem::path(spec).extension().string());
+  const std::filesystem::path path(spec);
+  // Of a file whose name is nothing but the ending, too.
+  const auto last = path.has_extension() ? path.extension() : path.filename();
+  const std::string ending = lower_case(last.string());
   const bool is_yaml = ending == ".yaml" || ending == ".yml";
   if (!is_yaml && ending != ".sdf" && ending != ".world")
     throw WorldError("'" + spec + "' is not a world" + allowed());
