@@ -202,6 +202,34 @@ octomap_msgs::Octomap map_msg(const std::vector<std::int8_t>& bytes, double reso
   return msg;
 }
 
+std::vector<visualization_msgs::Marker> robot_markers(double radius, double height,
+                                                      const std::string& frame) {
+  using visualization_msgs::Marker;
+  Marker body;
+  body.header.frame_id = frame;
+  body.frame_locked = 1U;
+  body.ns = "robot";
+  body.type = Marker::CYLINDER;
+  body.scale.x = body.scale.y = 2.0 * radius;
+  body.scale.z = height;
+  body.pose.position.z = 0.5 * height;
+  body.pose.orientation.w = 1.0;
+  body.color.r = body.color.g = body.color.b = body.color.a = 1.0F;
+  Marker nose = body;
+  nose.id = 1;
+  nose.type = Marker::TRIANGLE_LIST;
+  nose.scale.x = nose.scale.y = nose.scale.z = 1.0;
+  nose.pose.position.z = height + 0.02;
+  nose.color.r = nose.color.b = 0.0F;
+  for (const auto& [x, y] : {std::pair{1.5, 0.0}, {-0.6, 0.75}, {-0.6, -0.75}}) {
+    geometry_msgs::Point corner;
+    corner.x = radius * x;
+    corner.y = radius * y;
+    nose.points.push_back(corner);
+  }
+  return {body, nose};
+}
+
 visualization_msgs::MarkerArray seen_msg(const std::vector<Eigen::Vector3d>& standing,
                                          double resolution, const navvi_types::Obstacles& obstacles,
                                          const std::string& frame) {

@@ -54,6 +54,10 @@ void add_points(const sensor_msgs::LaserScan& scan, const sensor_msgs::PointClou
 [[nodiscard]] octomap_msgs::Octomap map_msg(const std::vector<std::int8_t>& bytes,
                                             double resolution, std::int64_t stamp,
                                             const std::string& frame);
+/// For RViz: the robot as a cylinder with a flat arrow head on it that shows its heading, as in the
+/// simulator. \param radius  m \param height  m \param frame  base_link
+[[nodiscard]] std::vector<visualization_msgs::Marker> robot_markers(double radius, double height,
+                                                                    const std::string& frame);
 /// For RViz: what stands as cubes, each obstacle as a cylinder, with an arrow before it as long as
 /// its way in a second.
 /// \param standing  m, middles of voxels \param resolution  m, their edge

@@ -259,5 +259,17 @@ TEST(MsgConversion, shows_what_stands_and_what_moves_and_nothing_of_before) {
   for (const Marker& marker : all) EXPECT_TRUE(names.emplace(marker.ns, marker.id).second);
 }
 
+TEST(MsgConversion, shows_the_robot_with_its_nose_ahead) {
+  const auto parts = robot_markers(0.2, 0.5, "base");
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].header.frame_id, "base");
+  EXPECT_TRUE(parts[0].frame_locked && parts[1].frame_locked) << "it moves between two messages";
+  EXPECT_DOUBLE_EQ(parts[0].scale.x, 0.4);
+  EXPECT_DOUBLE_EQ(parts[0].pose.position.z + parts[0].scale.z / 2.0, 0.5);
+  ASSERT_EQ(parts[1].points.size(), 3U);
+  EXPECT_DOUBLE_EQ(parts[1].points[0].x, 0.3);
+  EXPECT_NE(parts[0].id, parts[1].id);
+}
+
 }  // namespace
 }  // namespace navvi_perception::node

@@ -294,8 +294,12 @@ class PerceptionNode {
 
   void show(const navvi_types::Obstacles& obstacles) {
     if (seen_.getNumSubscribers() == 0) return;
-    seen_.publish(
-        seen_msg(perception_->standing(), config_.core.resolution(), obstacles, config_.map_frame));
+    visualization_msgs::MarkerArray seen =
+        seen_msg(perception_->standing(), config_.core.resolution(), obstacles, config_.map_frame);
+    for (const auto& part : robot_markers(config_.core.robot_radius(), config_.core.robot_height(),
+                                          config_.base_frame))
+      seen.markers.push_back(part);
+    seen_.publish(seen);
   }
 
   /// By a sight that came within kFresh and is not old.

@@ -62,6 +62,7 @@ void PerceptionConfig::describe(navvi_config::Visitor& visit) { values_->describ
 double PerceptionConfig::resolution() const { return values_->map.resolution; }
 double PerceptionConfig::robot_radius() const { return values_->robot_radius; }
 void PerceptionConfig::set_robot_height(double height) { values_->map.high = height; }
+double PerceptionConfig::robot_height() const { return values_->map.high; }
 sight::Prior PerceptionConfig::prior_of(const std::string& file) const {
   return map::prior_of(file, values_->map);
 }

@@ -26,6 +26,7 @@ class PerceptionConfig {
   /// \param height  m, of the robot with its load, as navigation has it: what begins higher over
   ///                the floor does not matter
   void set_robot_height(double height);
+  [[nodiscard]] double robot_height() const;  ///< m
   /// The OctoMap of a file, .bt or .ot. \throws navvi_config::ConfigError with a sentence
   [[nodiscard]] sight::Prior prior_of(const std::string& file) const;
 
