@@ -330,7 +330,7 @@ void TrialMonitor::arrive(const Guidance& guidance, std::vector<Event>& events) 
     return;
   }
   goal_.arrival = moved() ? Ending{"reached", "goal_reached", guidance.stamp}
-                          : Ending{"refused", "reached_at_start", guidance.stamp};
+                          : Ending{"refused", "goal_at_start", guidance.stamp};
   fields.set("elapsed", static_cast<double>(guidance.stamp - start_->stamp) * 1e-9);
   events.push_back({"GOAL_REACHED", fields, guidance.stamp});
 }

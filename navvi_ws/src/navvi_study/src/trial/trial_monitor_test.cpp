@@ -210,7 +210,7 @@ TEST_F(Monitor, does_not_call_a_goal_reached_where_the_robot_stands_at_the_start
     (void)monitor_.observe(there);
     ASSERT_TRUE(monitor_.arrival());
     EXPECT_EQ(monitor_.arrival()->result, driven > 0.0 ? "reached" : "refused");
-    EXPECT_EQ(monitor_.arrival()->reason, driven > 0.0 ? "goal_reached" : "reached_at_start");
+    EXPECT_EQ(monitor_.arrival()->reason, driven > 0.0 ? "goal_reached" : "goal_at_start");
   }
 }
 
