@@ -9,13 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/feedback.hpp"
-#include "cues/cue_queue.hpp"
+#include "beat.hpp"
 
 namespace navvi_feedback::core {
 
-/// For tests: a robot, its world and a voice about one Feedback, and a judge of what is told. The
-/// voice is navvi_types' model, and the queue is the true one.
+/// For tests: a robot, its world and a voice about one Guide, and a judge of what is told. The
+/// voice is navvi_types' model.
 class SessionJudge {
  public:
   /// All that may happen to a person; steady until it is changed.
@@ -36,8 +35,8 @@ class SessionJudge {
     std::vector<CueKind> notices;
   };
 
-  explicit SessionJudge(const FeedbackConfig& config = {})
-      : feedback_(config, std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml") {
+  explicit SessionJudge(const GuideConfig& config = {})
+      : guide_(config, std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml") {
     Guidance& guidance = now.guidance;
     guidance.state = Guidance::State::following;
     guidance.goal = guidance.waypoint = {20.0, 0.0};
@@ -90,12 +89,12 @@ class SessionJudge {
   void tick() {
     const bool same = (now.guidance.goal - last_.guidance.goal).norm() <= 0.5;
     if (!same) told_unseen_ = false;
-    if (now.guided) feedback_.take(now.guidance, time);
-    if (now.velocity) feedback_.take(Odometry{0, {}, *now.velocity}, time);
-    if (now.sensed) feedback_.take(Proximity{0, now.nearby}, time);
-    feedback_.take(now.gate, time);
-    feedback_.take(TrialState{now.trial}, time);
-    for (const Contact& contact : now.contacts) feedback_.take(contact);
+    if (now.guided) guide_.take(now.guidance, time);
+    if (now.velocity) guide_.take(Odometry{0, {}, *now.velocity}, time);
+    if (now.sensed) guide_.take(Proximity{0, now.nearby}, time);
+    guide_.take(now.gate, time);
+    guide_.take(TrialState{now.trial}, time);
+    for (const Contact& contact : now.contacts) guide_.take(contact, time);
     Devices input;
     input.hands.live = now.stick;
     input.hands.axes = {0.0, now.forward};
@@ -103,16 +102,15 @@ class SessionJudge {
     input.sounds = now.sounds;
     input.motors = now.motors;
     input.states = now.notices;
+    input.speaking = time < speaks_until_;
     if (now.asked) input.asked = {*now.asked};
-    const Feedback::Decided out = feedback_.update(input, !queue_.empty(), time);
+    const Beat out = beat(guide_, input, time);
     if (out.pattern) felt.insert(navvi_types::to_string(*out.pattern));
     touched_ = out.pattern.has_value();
     for (const sounds::Play& play : out.plays) played.insert(navvi_types::to_string(play.earcon));
-    const cues::CueQueue::Step step = queue_.update(out.cues, time < speaks_until_, time);
-    if (step.stop) speaks_until_ = time;
-    if (step.start) speaks_until_ = navvi_types::spoken_at(time, step.start->size());
-    feedback_.note(step.events);
-    judge(out.cues, step.events);
+    if (out.voice.stop) speaks_until_ = time;
+    if (out.voice.start) speaks_until_ = navvi_types::spoken_at(time, out.voice.start->size());
+    judge(out.cues, out.events);
     expect_what_matters();
     expect_release();
     expect_toward();
@@ -222,13 +220,13 @@ class SessionJudge {
 
   /// Voice, pad and sounds follow the order that banner, panel and plate show and have from nowhere
   /// else.
-  void expect_one_order(const Feedback::Decided& out) {
+  void expect_one_order(const Beat& out) {
     const bool halts = out.pattern == haptics::Pattern::halt;
     const bool halt_begins = !std::exchange(feels_halt_, halts) && halts;
     if (std::exchange(beats_, (beats_ + 1) % 5) != 0 && !says_way_ && !halt_begins) return;
     using navvi_types::Ask;
-    const std::optional<cues::Cue> order = feedback_.order();
-    const CueKind kind = order ? order->kind : CueKind::lesson;
+    const std::optional<CueEvent> order = guide_.order();
+    const CueKind kind = order ? *order->kind() : CueKind::lesson;
     const Ask ask = order ? traits(kind).ask : Ask::nothing;
     const bool drive = order && is_way(family_of(kind));
     const auto contradicts = [&](const char* what, bool wrong) {
@@ -317,8 +315,7 @@ class SessionJudge {
     if (in_vain_ > 3.0) complaints.insert("pushed for 3 s in silence");
   }
 
-  Feedback feedback_;
-  cues::CueQueue queue_;
+  Guide guide_;
   double speaks_until_ = 0.0;
   std::map<std::uint32_t, Known> known_;
   std::uint32_t running_ = 0;

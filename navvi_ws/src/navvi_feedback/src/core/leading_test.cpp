@@ -4,7 +4,7 @@
 #include <navvi_config/reader.hpp>
 #include <set>
 
-#include "core/feedback.hpp"
+#include "beat.hpp"
 
 namespace navvi_feedback::core {
 namespace {
@@ -13,9 +13,9 @@ namespace {
 class Leading : public testing::Test {
  protected:
   void begin(const std::string& lead) {
-    FeedbackConfig config;
+    GuideConfig config;
     navvi_config::read(config, YAML::Load("{lead: " + lead + "}"), "test");
-    feedback_ = std::make_unique<Feedback>(
+    guide_ = std::make_unique<Guide>(
         config, std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml");
     devices_.hands.live = true;
     devices_.hands.axes = {0.0, 0.0};
@@ -24,18 +24,18 @@ class Leading : public testing::Test {
     pass(1.0);
   }
   /// What comes in a session at 50 Hz.
-  Feedback::Decided pass(double seconds) {
-    Feedback::Decided output;
+  Beat pass(double seconds) {
+    Beat output;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
       Guidance guidance;
       guidance.state = state_;
       guidance.goal = {20.0, 0.0};
       guidance.steer_angle = guidance.waypoint_angle = steer_;
       guidance.waypoint_distance = guidance.goal_distance = 20.0;
-      feedback_->take(guidance, time_);
-      feedback_->take(Odometry{0, {}, motion_}, time_);
-      feedback_->take(Proximity{0, nearby_}, time_);
-      output = feedback_->update(devices_, false, time_);
+      guide_->take(guidance, time_);
+      guide_->take(Odometry{0, {}, motion_}, time_);
+      guide_->take(Proximity{0, nearby_}, time_);
+      output = beat(*guide_, devices_, time_);
       flow_.push_back(output.flow);
       rumble_.push_back(output.rumble);
       for (const cues::Cue& cue : output.cues) said_.insert(cue.kind);
@@ -58,7 +58,7 @@ class Leading : public testing::Test {
     return count;
   }
 
-  std::unique_ptr<Feedback> feedback_;
+  std::unique_ptr<Guide> guide_;
   Devices devices_;
   Guidance::State state_ = Guidance::State::following;
   double steer_ = 0.3;
@@ -166,10 +166,10 @@ TEST_F(Leading, takes_to_the_hand_only_where_no_sound_reaches_anybody) {
 }
 
 TEST(LeadingConfig, by_the_hand_is_refused_without_motors) {
-  FeedbackConfig config;
+  GuideConfig config;
   navvi_config::read(config, YAML::Load("{lead: hand, haptics: {enabled: false}}"), "test");
   EXPECT_THROW(
-      Feedback(config, std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"),
+      Guide(config, std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"),
       navvi_config::ConfigError);
 }
 

@@ -340,7 +340,7 @@ struct Verdict {
   int owed_again = 0;          ///< "go on" to who had not moved since the one before
 };
 
-Verdict judge(int situations, const FeedbackConfig& config = {}) {
+Verdict judge(int situations, const GuideConfig& config = {}) {
   constexpr int kOfASession = 250;
   Verdict verdict;
   for (int done = 0; done < situations; done += kOfASession) {
@@ -381,14 +381,14 @@ TEST(Situations, thirty_thousand_at_random_leave_nothing_that_matters_unsaid_ove
 }
 
 TEST(Situations, the_judge_sees_a_broken_rule) {
-  FeedbackConfig late;
-  late.cues.state_hold = 3.0;
+  GuideConfig late;
+  late->cues.state_hold = 3.0;
   EXPECT_EQ(judge(500, late).complaints.count("unsaid: no_route"), 1U);
-  FeedbackConfig again;
-  again.cues.same_text = 0.0;
+  GuideConfig again;
+  again->cues.same_text = 0.0;
   EXPECT_EQ(judge(500, again).complaints.count("the same again: direction"), 1U);
-  FeedbackConfig patient;
-  patient.cues.stuck_time = 10.0;
+  GuideConfig patient;
+  patient->cues.stuck_time = 10.0;
   SessionJudge session(patient);
   session.get_under_way();
   session.now.velocity = Velocity{};

@@ -3,7 +3,7 @@
 #include <functional>
 #include <set>
 
-#include "core/feedback.hpp"
+#include "beat.hpp"
 
 namespace navvi_feedback::core {
 namespace {
@@ -19,7 +19,7 @@ struct Signals {
   double right = 0.0;
 };
 
-using Happens = std::function<void(Feedback&, Devices&, double)>;
+using Happens = std::function<void(Guide&, Devices&, double)>;
 
 /// A family of cues: what happens, and its signal for each sense. An empty name: none is wanted.
 struct Family {
@@ -42,10 +42,10 @@ Guidance following(double steer) {
   return guidance;
 }
 
-void drive(Feedback& feedback, double time, double steer = 0.0, double speed = 0.5) {
-  feedback.take(following(steer), time);
-  feedback.take(Odometry{0, {}, {speed, 0.0}}, time);
-  feedback.take(Proximity{}, time);
+void drive(Guide& guide, double time, double steer = 0.0, double speed = 0.5) {
+  guide.take(following(steer), time);
+  guide.take(Odometry{0, {}, {speed, 0.0}}, time);
+  guide.take(Proximity{}, time);
 }
 
 /// s, of what happens; the loss of a sense was told before.
@@ -55,69 +55,69 @@ bool once(double time) { return time > kThen + 0.005 && time < kThen + 0.025; }
 
 const std::vector<Family> kFamilies = {
     {"a shelf is hit on the left",
-     [](Feedback& feedback, Devices&, double time) {
-       drive(feedback, time);
-       if (once(time)) feedback.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+     [](Guide& guide, Devices&, double time) {
+       drive(guide, time);
+       if (once(time)) guide.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7}, time);
      },
      "collision_shelf", "hit_shelf", "hit_shelf", "hit_shelf"},
     {"a worker is hit on the left",
-     [](Feedback& feedback, Devices&, double time) {
-       drive(feedback, time);
-       if (once(time)) feedback.take(Contact{ThingClass::worker, {0.0, 0.4}, 7});
+     [](Guide& guide, Devices&, double time) {
+       drive(guide, time);
+       if (once(time)) guide.take(Contact{ThingClass::worker, {0.0, 0.4}, 7}, time);
      },
      "collision_obstacle", "hit_obstacle", "hit_obstacle", "hit_obstacle"},
     {"the robot is stopped",
-     [](Feedback& feedback, Devices&, double time) {
-       drive(feedback, time);
+     [](Guide& guide, Devices&, double time) {
+       drive(guide, time);
        DriveState state;
        state.state = time < kThen ? DriveState::State::running : DriveState::State::stopped;
-       feedback.take(state, time);
+       guide.take(state, time);
      },
      "robot_stopped", "", "stopped", "stopped"},
     {"the robot is stuck",
-     [](Feedback& feedback, Devices&, double time) { drive(feedback, time, 0.0, 0.0); },
+     [](Guide& guide, Devices&, double time) { drive(guide, time, 0.0, 0.0); },
      "stuck_unknown", "", "stuck", "stuck"},
     {"the goal is reached",
-     [](Feedback& feedback, Devices&, double time) {
-       drive(feedback, time);
+     [](Guide& guide, Devices&, double time) {
+       drive(guide, time);
        Guidance guidance = following(0.0);
        if (time > kThen) guidance.state = Guidance::State::arrived;
-       feedback.take(guidance, time);
+       guide.take(guidance, time);
      },
      "arrived", "arrived", "arrived", "arrived"},
     {"a mover is about to be hit",
-     [](Feedback& feedback, Devices&, double time) {
-       drive(feedback, time);
+     [](Guide& guide, Devices&, double time) {
+       drive(guide, time);
        const double gap = std::max(0.3, 5.0 - 0.9 * (time - 10.0));
-       feedback.take(Proximity{0, {{ThingClass::forklift, 1, gap, {gap + 0.35, 0.0}, true}}}, time);
+       guide.take(Proximity{0, {{ThingClass::forklift, 1, gap, {gap + 0.35, 0.0}, true}}}, time);
      },
      "obstacle_stop", "", "halt", "halt"},
     {"something stands in the way for a while",
-     [](Feedback& feedback, Devices&, double time) {
-       drive(feedback, time);
+     [](Guide& guide, Devices&, double time) {
+       drive(guide, time);
        Guidance guidance = following(0.0);
        if (time > kThen) guidance.state = Guidance::State::blocked;
        guidance.blocked_by = ThingClass::forklift;
        guidance.blocked_distance = 1.0;
-       feedback.take(guidance, time);
+       guide.take(guidance, time);
      },
      "blocked", "", "halt", "halt"},
     {"the guidance is lost",
-     [](Feedback& feedback, Devices&, double time) {
-       feedback.take(Odometry{0, {}, {0.5, 0.0}}, time);
-       feedback.take(Proximity{}, time);
-       if (time < kThen) feedback.take(following(0.0), time);
+     [](Guide& guide, Devices&, double time) {
+       guide.take(Odometry{0, {}, {0.5, 0.0}}, time);
+       guide.take(Proximity{}, time);
+       if (time < kThen) guide.take(following(0.0), time);
      },
      "guidance_lost", "", "", "stopped"},
     {"the way leads to the right",
-     [](Feedback& feedback, Devices&, double time) { drive(feedback, time, 1.5); }, "", "turn", "",
+     [](Guide& guide, Devices&, double time) { drive(guide, time, 1.5); }, "", "turn", "",
      ""},
 };
 
 enum class Lost { nothing, sound, motors };
 
 Signals signals(const Family& family, Lost lost) {
-  Feedback feedback(FeedbackConfig{}, kEnglish);
+  Guide guide(GuideConfig{}, kEnglish);
   Devices input;
   input.hands.live = true;
   input.hands.buttons = {false, false};
@@ -129,8 +129,8 @@ Signals signals(const Family& family, Lost lost) {
   Signals result;
   for (double time = 10.0; time < 18.0; time += 0.02) {
     input.hands.axes = {0.0, time < 10.5 ? 0.0 : 1.0};
-    family.happens(feedback, input, time);
-    const Feedback::Decided out = feedback.update(input, false, time);
+    family.happens(guide, input, time);
+    const Beat out = beat(guide, input, time);
     if (lost != Lost::sound) {
       for (const cues::Cue& cue : out.cues) result.said.insert(to_string(cue.kind));
       for (const sounds::Play& play : out.plays)
@@ -176,12 +176,12 @@ TEST(TwoSenses, the_motors_lead_the_way_where_no_word_can) {
 }
 
 TEST(TwoSenses, motors_that_cannot_be_felt_are_told) {
-  Feedback feedback(FeedbackConfig{}, kEnglish);
+  Guide guide(GuideConfig{}, kEnglish);
   Devices input;
   input.hands.live = true;
   input.hands.axes = {0.0, 0.0};
   input.states = {CueKind::no_rumble};
-  const std::vector<cues::Cue> cues = feedback.update(input, false, 10.0).cues;
+  const std::vector<cues::Cue> cues = beat(guide, input, 10.0).cues;
   ASSERT_FALSE(cues.empty());
   EXPECT_EQ(cues[0].kind, CueKind::no_rumble);
 }

@@ -11,7 +11,7 @@
 #include "devices/gamepad.hpp"
 #include "devices/speaker.hpp"
 #include "haptics/rumble_output.hpp"
-#include "lockstep/events.hpp"
+#include "core/events.hpp"
 #include "navvi_feedback/node/msg_conversion.hpp"
 #include "sounds/sounds_config.hpp"
 
@@ -60,7 +60,7 @@ class CuePlayer {
       rumble_ = {cue.left, cue.right};
     } else if (cue.word() == to_string(sounds::Earcon::flow)) {
       (void)earcons_.hold({cue.left, cue.right}, sounds::FamilyConfig().volume);
-    } else if (const auto sound = lockstep::sound_of(cue)) {
+    } else if (const auto sound = core::sound_of(cue)) {
       (void)earcons_.play({*sound});
     } else if (cue.modality() != navvi_types::Modality::speech) {
       return;

@@ -11,7 +11,7 @@
 #include "cues/phrases.hpp"
 #include "lessons/questionnaire.hpp"
 #include "menu/places_file.hpp"
-#include "navvi_feedback/lockstep/guide.hpp"
+#include "navvi_feedback/core/guide.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"
 #include "node/heartbeat_notice.hpp"
@@ -27,7 +27,7 @@ namespace navvi_feedback::node {
 using devices::Chain;
 using devices::InputSource;
 using devices::Latencies;
-using lockstep::Output;
+using core::Output;
 
 namespace {
 
@@ -157,7 +157,7 @@ class FeedbackNode {
   NodeConfig config_;
   Settings settings_;
   bool welcomes_;  ///< the person's settings were loaded, and that is to be said
-  lockstep::Guide guide_;
+  core::Guide guide_;
   cues::Phrases words_;  ///< of the picture
   PersonDevices devices_;
   Beat beat_{kLate};

@@ -26,7 +26,7 @@ constexpr float kBatteryFull = 0.20F;  // from which it is not low any more
 
 }  // namespace
 
-Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide& guide,
+Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, core::Guide& guide,
                PersonDevices& devices, Beat beat)
     : node_(node),
       guide_(guide),
@@ -119,7 +119,7 @@ void Inlets::subscribe_to_robot(const NodeConfig& config) {
     beat_(Chain::motors);
   });
   listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const auto& contact) {
-    guide_.take(contact);
+    guide_.take(contact, now());
     beat_(Chain::pattern);
   });
   listen<navvi_msgs::Guidance>("navvi/guidance", 1, [this](const auto& guidance) {

@@ -11,7 +11,7 @@
 
 #include "devices/latencies.hpp"
 #include "drive/stick_age.hpp"
-#include "navvi_feedback/lockstep/guide.hpp"
+#include "navvi_feedback/core/guide.hpp"
 #include "node/node_config.hpp"
 #include "node/person_devices.hpp"
 
@@ -25,7 +25,7 @@ class Inlets {
   using Beat = std::function<void(std::optional<devices::Chain> caused)>;
 
   /// \param guide, devices  outlive this
-  Inlets(ros::NodeHandle& node, const NodeConfig& config, lockstep::Guide& guide,
+  Inlets(ros::NodeHandle& node, const NodeConfig& config, core::Guide& guide,
          PersonDevices& devices, Beat beat);
 
   /// Adds to the person's devices what topics say: the robot's place, and buttons by name.
@@ -52,7 +52,7 @@ class Inlets {
   [[nodiscard]] std::optional<navvi_types::Pose2> robot();
 
   ros::NodeHandle& node_;
-  lockstep::Guide& guide_;
+  core::Guide& guide_;
   PersonDevices& devices_;
   Beat beat_;
   double stale_;  ///< s

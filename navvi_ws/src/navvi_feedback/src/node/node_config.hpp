@@ -5,7 +5,7 @@
 
 #include "devices/mixer.hpp"
 #include "devices/speaker.hpp"
-#include "lockstep/guide_values.hpp"
+#include "core/guide_config.hpp"
 
 namespace navvi_feedback::node {
 
@@ -13,7 +13,7 @@ namespace navvi_feedback::node {
 struct PersonConfig {
   std::string language = "en";
   std::string phrases;  ///< path; empty for that of the language
-  lockstep::GuideConfig feedback;
+  core::GuideConfig feedback;
   devices::SpeakerConfig speaker;
   devices::MixerConfig mixer;
 

@@ -34,7 +34,7 @@ Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands
 
 void Outlets::stop_wheels() { cmd_vel_.publish(geometry_msgs::Twist()); }
 
-void Outlets::send(const lockstep::Output& told) {
+void Outlets::send(const core::Output& told) {
   if (told.command) cmd_vel_.publish(to_msg(*told.command));
   if (told.goal) goals_.publish(navvi_types::goal_msg(*told.goal, stamp()));
   if (told.request) requests_.publish(to_msg(navvi_types::TrialRequest{*told.request, stamp()}));

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cues/phrases.hpp"
-#include "navvi_feedback/lockstep/guide.hpp"
+#include "navvi_feedback/core/guide.hpp"
 #include "node/node_config.hpp"
 #include "picture/markers.hpp"
 
@@ -25,7 +25,7 @@ class Outlets {
 
   void stop_wheels();
   /// All but the words.
-  void send(const lockstep::Output& told);
+  void send(const core::Output& told);
   void send(std::vector<CueEvent> events);
   void send(const drive::InputState& hands);
   void send(const diagnostic_msgs::DiagnosticArray& report) { diagnostics_.publish(report); }

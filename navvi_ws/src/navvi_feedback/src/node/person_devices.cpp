@@ -79,7 +79,7 @@ void PersonDevices::use(int rate, double volume) {
   mixer_.set_volume(volume);
 }
 
-std::vector<sounds::Play> PersonDevices::obey(const lockstep::Output& told) {
+std::vector<sounds::Play> PersonDevices::obey(const core::Output& told) {
   std::vector<sounds::Play> played = earcons_.play(told.plays);
   if (by_topic()) played = told.plays;
   (void)earcons_.hold(told.flow, told.flow_gain);

@@ -10,7 +10,7 @@
 #include "devices/latencies.hpp"
 #include "devices/mixer.hpp"
 #include "devices/speech_channel.hpp"
-#include "navvi_feedback/lockstep/guide.hpp"
+#include "navvi_feedback/core/guide.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 #include "node/node_config.hpp"
 
@@ -29,7 +29,7 @@ class PersonDevices {
 
   /// The voice obeys, and short sounds begin.
   /// \return sounds that somebody hears, those of a scan among them
-  [[nodiscard]] std::vector<sounds::Play> obey(const lockstep::Output& told);
+  [[nodiscard]] std::vector<sounds::Play> obey(const core::Output& told);
   /// \param called  once the pad's driver was told, if that is another command
   /// \return false: there is no pad of our own
   bool move_motors(const haptics::Rumble& rumble, const std::function<void()>& called);

@@ -57,7 +57,7 @@ void Settings::change(const std::string& word) {
   saver_.save(word);
 }
 
-void Settings::keep(const lockstep::Output& told) {
+void Settings::keep(const core::Output& told) {
   if (told.place) {
     ROS_INFO("Remembered as \"%s\": %.2f, %.2f m in map, in %s.", told.place->name.c_str(),
              told.place->at.x(), told.place->at.y(), config_.feedback->places.c_str());

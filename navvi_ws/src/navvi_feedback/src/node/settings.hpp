@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "menu/places_file.hpp"
-#include "navvi_feedback/lockstep/guide.hpp"
+#include "navvi_feedback/core/guide.hpp"
 #include "node/node_config.hpp"
 #include "person/person_file.hpp"
 #include "person/settings_saver.hpp"
@@ -37,7 +37,7 @@ class Settings {
   void change(const std::string& word);
   /// A place to be remembered. A lesson's results: its table goes to the parameter `record`, its
   /// settings to the file.
-  void keep(const lockstep::Output& told);
+  void keep(const core::Output& told);
 
   /// To be called often; does not wait. \return cues that say what has failed, which is logged
   [[nodiscard]] std::vector<CueKind> failures();

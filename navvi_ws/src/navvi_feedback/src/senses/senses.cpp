@@ -24,7 +24,7 @@ void Senses::take(const Guidance& guidance, double time) {
   turned_ = 0.0;
 }
 
-void Senses::take(const DriveState& state) {
+void Senses::take(const DriveState& state, double /*time*/) {
   gate_ = state.state;
   intruder_ = !state.intruder.empty();
 }

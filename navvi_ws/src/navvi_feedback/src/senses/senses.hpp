@@ -25,14 +25,14 @@ class Senses {
     nearby_ = {proximity.things, time};
   }
   void take(const Guidance& guidance, double time);
-  void take(const DriveState& state);
+  void take(const DriveState& state, double /*time*/);
   /// A trial_node that repeats its state, and then is silent while a trial runs, records no more.
   void take(const TrialState& state, double time);
   void take(const navvi_types::Odometry& odometry, double time) {
     motion_ = {odometry.velocity, time};
   }
-  void take(const navvi_types::Scenario& scenario) { scenario_ = scenario; }
-  void take(const Contact& contact) { contacts_.push_back(contact); }
+  void take(const navvi_types::Scenario& scenario, double /*time*/) { scenario_ = scenario; }
+  void take(const Contact& contact, double /*time*/) { contacts_.push_back(contact); }
 
   /// \param devices  now
   /// \param dt  s, since the last observation

@@ -51,7 +51,7 @@ TEST(Senses, keep_a_stale_velocity_and_guidance_but_nothing_stale_that_is_near) 
 
 TEST(Senses, report_each_contact_once) {
   Senses senses(kStale);
-  senses.take(Contact{ThingClass::shelf, {0.4, 0.0}, 7});
+  senses.take(Contact{ThingClass::shelf, {0.4, 0.0}, 7}, 10.0);
   EXPECT_EQ(senses.observe({}, 0.02, 10.0).contacts.size(), 1U);
   EXPECT_TRUE(senses.observe({}, 0.02, 10.02).contacts.empty());
 }
@@ -75,7 +75,7 @@ TEST(Senses, know_the_goal_and_the_smallest_place_about_a_robot_whose_pose_is_kn
   scenario.places[0].number = 1;
   scenario.places[1].area = {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(5.0, 5.0)};
   scenario.places[1].number = 2;
-  senses.take(scenario);
+  senses.take(scenario, 10.0);
   EXPECT_FALSE(senses.observe({}, 0.02, 10.0).goal_angle);
   Devices devices;
   devices.robot = navvi_types::Pose2{{3.0, 4.0}, 0.0};

@@ -113,7 +113,7 @@ void ClosedLoop::sense() {
   for (const navvi_types::Contact& contact : now.contacts) {
     published_.contacts.push_back(navvi_types::to_msg(contact));
     const auto felt = node::from_msg(published_.contacts.back());
-    if (felt && !setting_.senses) guided_.take(*felt);
+    if (felt && !setting_.senses) guided_.take(*felt, time());
   }
   if (session_.due(navvi_sim::live::kProximityRate)) {
     published_.proximity =
@@ -133,7 +133,7 @@ void ClosedLoop::sense() {
 void ClosedLoop::sense_by_robot() {
   RobotSenses::News news = setting_.senses->look(session_);
   for (const navvi_types::Contact& contact : news.contacts)
-    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) guided_.take(*felt);
+    if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) guided_.take(*felt, time());
   if (news.proximity)
     if (const auto proximity = node::from_msg(navvi_types::to_msg(*news.proximity)))
       guided_.take(*proximity, time());

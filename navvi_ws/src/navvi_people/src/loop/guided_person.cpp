@@ -12,7 +12,7 @@ namespace {
 
 /// The lesson has taught the way of leading of the session.
 people::SimulatedOperatorConfig taught(people::SimulatedOperatorConfig person,
-                                       const navvi_feedback::lockstep::GuideConfig& guide,
+                                       const navvi_feedback::core::GuideConfig& guide,
                                        bool speech) {
   person.lead = guide.lead(speech || guide.has_sounds());
   return person;
@@ -20,7 +20,7 @@ people::SimulatedOperatorConfig taught(people::SimulatedOperatorConfig person,
 
 }  // namespace
 
-GuidedPerson::GuidedPerson(const navvi_feedback::lockstep::GuideConfig& guide,
+GuidedPerson::GuidedPerson(const navvi_feedback::core::GuideConfig& guide,
                            const people::SimulatedOperatorConfig& person, int occasion, bool speech,
                            const std::string& phrases)
     : guide_(guide, phrases),

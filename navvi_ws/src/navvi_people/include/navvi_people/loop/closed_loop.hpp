@@ -10,7 +10,7 @@
 #include <navvi_msgs/Proximity.h>
 #include <octomap_msgs/Octomap.h>
 
-#include <navvi_feedback/lockstep/guide.hpp>
+#include <navvi_feedback/core/guide.hpp>
 #include <navvi_files/cache.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
@@ -30,7 +30,7 @@ namespace navvi_people::loop {
 struct ClosedLoopConfig {
   navvi_sim::setup::SimNodeConfig sim;
   navvi_nav::lockstep::NavigationConfig nav;
-  navvi_feedback::lockstep::GuideConfig feedback;
+  navvi_feedback::core::GuideConfig feedback;
   people::SimulatedOperatorConfig person;
   navvi_perception::see::PerceptionConfig
       perception;  ///< used where sim's sensing is not the truth

@@ -3,7 +3,7 @@
 #include <geometry_msgs/Transform.h>
 #include <navvi_msgs/Cue.h>
 
-#include <navvi_feedback/lockstep/guide.hpp>
+#include <navvi_feedback/core/guide.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,14 +18,13 @@ class GuidedPerson {
   /// \param speech  false: nothing is spoken \param phrases  file of the spoken phrases
   /// \throws ConfigError
   /// \param occasion  as of `SimulatedOperator`
-  GuidedPerson(const navvi_feedback::lockstep::GuideConfig& guide,
+  GuidedPerson(const navvi_feedback::core::GuideConfig& guide,
                const people::SimulatedOperatorConfig& person, int occasion, bool speech,
                const std::string& phrases);
 
-  /// As Guide::take. \param more  a time, where that takes one
-  template <typename Value, typename... More>
-  void take(const Value& value, More... more) {
-    guide_.take(value, more...);
+  /// As Guide::take.
+  void take(const navvi_feedback::core::Guide::Message& message, double time) {
+    guide_.take(message, time);
   }
 
   /// What is played at one instant.
@@ -47,7 +46,7 @@ class GuidedPerson {
   [[nodiscard]] const people::SimulatedOperator& person() const { return person_; }
 
  private:
-  navvi_feedback::lockstep::Guide guide_;
+  navvi_feedback::core::Guide guide_;
   people::SimulatedOperator person_;
   bool speech_;
   bool heard_;                 ///< there is something to hear

@@ -6,12 +6,13 @@
 #include "drive/buttons.hpp"
 #include "drive/drive.hpp"
 #include "haptics/haptics.hpp"
+#include "navvi_feedback/core/guide.hpp"
 #include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::core {
 
 /// The parameters of all that decides on the person's side.
-struct FeedbackConfig {
+struct GuideConfig::Values {
   /// s, guidance, proximity, odometry (wall clock) or the robot's pose (ROS time) older than this
   /// is lost
   static constexpr double kStale = 0.8;
@@ -25,8 +26,6 @@ struct FeedbackConfig {
   haptics::HapticsConfig haptics;
   sounds::SoundsConfig sounds;
   cues::CuePolicyConfig cues;
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 }  // namespace navvi_feedback::core

@@ -14,15 +14,14 @@
 #include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
-#include <vector>
+#include <variant>
 
 #include "navvi_feedback/core/output.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
 
-namespace navvi_feedback::lockstep {
+namespace navvi_feedback::core {
 
-using core::Output;
 using senses::Devices;
 
 /// The parameters of feedback_node's core.
@@ -58,13 +57,10 @@ class Guide {
   Guide(const GuideConfig& config, const std::filesystem::path& phrases);
   ~Guide();
 
-  void take(const navvi_types::Proximity& proximity, double time);
-  void take(const navvi_types::Guidance& guidance, double time);
-  void take(const navvi_types::DriveState& state, double time);
-  void take(const navvi_types::TrialState& state, double time);
-  void take(const navvi_types::Odometry& odometry, double time);
-  void take(const navvi_types::Scenario& scenario, double time);
-  void take(const navvi_types::Contact& contact);
+  using Message = std::variant<navvi_types::Proximity, navvi_types::Guidance,
+                               navvi_types::DriveState, navvi_types::TrialState,
+                               navvi_types::Odometry, navvi_types::Scenario, navvi_types::Contact>;
+  void take(const Message& message, double time);
   /// From any source. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);
   /// A place to be remembered, as a click in RViz names it. \param at  m, in map
@@ -103,9 +99,12 @@ class Guide {
   [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const;
   [[nodiscard]] bool guidance_fresh(double time) const;
 
- private:
+  /// Known to this package alone.
   struct Parts;
+  [[nodiscard]] const Parts& parts() const { return *parts_; }
+
+ private:
   std::unique_ptr<Parts> parts_;
 };
 
-}  // namespace navvi_feedback::lockstep
+}  // namespace navvi_feedback::core

@@ -1,9 +1,9 @@
-#include "lockstep/events.hpp"
+#include "core/events.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace navvi_feedback::lockstep {
+namespace navvi_feedback::core {
 
 CueEvent rumble_event(const haptics::Rumble& rumble, std::optional<haptics::Pattern> pattern,
                       std::uint32_t id) {
@@ -38,4 +38,4 @@ std::optional<sounds::Play> sound_of(const CueEvent& event) {
       *earcon, {std::sqrt(std::max(0.0, 1.0 - leftness * leftness)), leftness}, volume};
 }
 
-}  // namespace navvi_feedback::lockstep
+}  // namespace navvi_feedback::core

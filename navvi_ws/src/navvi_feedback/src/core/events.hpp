@@ -7,7 +7,7 @@
 #include "haptics/pattern.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 
-namespace navvi_feedback::lockstep {
+namespace navvi_feedback::core {
 
 /// As a navvi_msgs/Cue, of the kind of its pattern, or "rumble".
 /// \param id  counts the changes of the motors
@@ -21,4 +21,4 @@ namespace navvi_feedback::lockstep {
 /// What such an event tells to play; nullopt if it is none, or lasts. Ahead and behind are the same.
 [[nodiscard]] std::optional<sounds::Play> sound_of(const CueEvent& event);
 
-}  // namespace navvi_feedback::lockstep
+}  // namespace navvi_feedback::core

@@ -1,8 +1,8 @@
-#include "lockstep/events.hpp"
+#include "core/events.hpp"
 
 #include <gtest/gtest.h>
 
-namespace navvi_feedback::lockstep {
+namespace navvi_feedback::core {
 namespace {
 
 TEST(RumbleEvent, is_a_cue_that_is_felt) {
@@ -31,4 +31,4 @@ TEST(SoundEvent, is_a_cue_that_tells_what_to_play_again) {
 }
 
 }  // namespace
-}  // namespace navvi_feedback::lockstep
+}  // namespace navvi_feedback::core

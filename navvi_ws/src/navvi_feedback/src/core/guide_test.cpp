@@ -1,4 +1,4 @@
-#include "core/feedback.hpp"
+#include "beat.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,9 +17,9 @@ namespace {
 
 const std::string kEnglish = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml";
 
-class FeedbackTest : public testing::Test {
+class GuideTest : public testing::Test {
  protected:
-  FeedbackTest() {
+  GuideTest() {
     input_.hands.live = true;
     hold(0.0, 0.0);
   }
@@ -30,10 +30,10 @@ class FeedbackTest : public testing::Test {
   }
 
   /// \return the last output
-  Feedback::Decided pass(double seconds) {
-    Feedback::Decided output;
+  Beat pass(double seconds) {
+    Beat output;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
-      output = feedback_.update(input_, voice_busy_, time_);
+      output = beat(guide_, input_, time_);
       for (const cues::Cue& cue : output.cues) kinds_.push_back(cue.kind);
       plays_.insert(plays_.end(), output.plays.begin(), output.plays.end());
     }
@@ -44,7 +44,7 @@ class FeedbackTest : public testing::Test {
   double strongest(double seconds) {
     double most = 0.0;
     for (const double end = time_ + seconds; time_ < end - 1e-9;) {
-      const Feedback::Decided output = pass(0.02);
+      const Beat output = pass(0.02);
       most = std::max(most, std::min(output.rumble.left, output.rumble.right));
       alarms_ += output.alarm_begins ? 1 : 0;
     }
@@ -64,9 +64,9 @@ class FeedbackTest : public testing::Test {
     guidance.steer_angle = guidance.waypoint_angle = 1.5;
     guidance.waypoint_distance = 8.0;
     guidance.goal_distance = 25.0;
-    feedback_.take(guidance, time_);
-    feedback_.take(Odometry{}, time_);
-    feedback_.take(Proximity{0, {{ThingClass::shelf, 1, 0.5, {0.0, y}}}}, time_);
+    guide_.take(guidance, time_);
+    guide_.take(Odometry{}, time_);
+    guide_.take(Proximity{0, {{ThingClass::shelf, 1, 0.5, {0.0, y}}}}, time_);
   }
 
   /// The planner's answer to a goal.
@@ -76,8 +76,8 @@ class FeedbackTest : public testing::Test {
     guidance.refusal = Guidance::Refusal::not_seen;
     guidance.goal = goal;
     guidance.plans = ++plans_;
-    feedback_.take(guidance, time_);
-    feedback_.take(Odometry{}, time_);
+    guide_.take(guidance, time_);
+    guide_.take(Odometry{}, time_);
   }
 
   [[nodiscard]] bool said(CueKind kind) const {
@@ -85,38 +85,37 @@ class FeedbackTest : public testing::Test {
   }
 
   std::uint32_t plans_ = 0;
-  Feedback feedback_{FeedbackConfig{}, kEnglish};
+  Guide guide_{GuideConfig{}, kEnglish};
   Devices input_;
-  bool voice_busy_ = false;
   double time_ = 10.0;
   std::vector<CueKind> kinds_;
   std::vector<sounds::Play> plays_;
   int alarms_ = 0;
 };
 
-TEST_F(FeedbackTest, says_once_that_another_node_wants_to_drive) {
+TEST_F(GuideTest, says_once_that_another_node_wants_to_drive) {
   pass(1.0);
   DriveState drive;
   drive.state = DriveState::State::running;
   drive.intruder = "/teleop";
-  feedback_.take(drive, time_);
+  guide_.take(drive, time_);
   pass(5.0);
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::intruder), 1);
 }
 
-TEST_F(FeedbackTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
+TEST_F(GuideTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
   pass(0.5);
   hold(0.0, 1.0);
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
   input_.hands = {};
-  const Feedback::Decided lost = pass(0.02);
+  const Beat lost = pass(0.02);
   ASSERT_TRUE(lost.command);
   EXPECT_EQ(lost.command->linear, 0.0);
   EXPECT_FALSE(pass(0.02).command);
   EXPECT_TRUE(said(CueKind::pad_lost));
 }
 
-TEST_F(FeedbackTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
+TEST_F(GuideTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
   pass(0.5);
   hold(0.0, 1.0);
   pass(1.0);
@@ -124,7 +123,7 @@ TEST_F(FeedbackTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0);
 }
 
-TEST_F(FeedbackTest, S7_a_pause_of_ten_minutes_ends_without_a_burst_of_speech) {
+TEST_F(GuideTest, S7_a_pause_of_ten_minutes_ends_without_a_burst_of_speech) {
   const auto live = [&](double seconds) {
     for (const double end = time_ + seconds; time_ < end - 1e-9; pass(0.06)) lead(0.5);
   };
@@ -140,21 +139,21 @@ TEST_F(FeedbackTest, S7_a_pause_of_ten_minutes_ends_without_a_burst_of_speech) {
   EXPECT_LE(kinds_.size(), at_first + 1) << "as at the begin";
 }
 
-class Driven : public FeedbackTest {
+class Driven : public GuideTest {
  protected:
   /// m/s, with the stick `axes` and the buttons held for 2 s after it was neutral.
   double speed(const std::string& parameters, const std::vector<double>& axes,
                const std::vector<bool>& buttons = {}) {
-    FeedbackConfig config;
+    GuideConfig config;
     navvi_config::read(config, YAML::Load(parameters), "test");
-    Feedback feedback(config, kEnglish);
-    Feedback::Decided output;
+    Guide guide(config, kEnglish);
+    Beat output;
     for (int tick = 0; tick < 125; ++tick, time_ += 0.02) {
       input_.hands.axes = tick < 25 ? std::vector<double>(axes.size()) : axes;
       input_.hands.buttons = buttons;
       if (gap_)
-        feedback.take(Proximity{0, {{ThingClass::shelf, 1, *gap_, {0.8, 0.0}, false}}}, time_);
-      output = feedback.update(input_, voice_busy_, time_);
+        guide.take(Proximity{0, {{ThingClass::shelf, 1, *gap_, {0.8, 0.0}, false}}}, time_);
+      output = beat(guide, input_, time_);
     }
     share_ = output.share;
     return output.command.value().linear;
@@ -194,18 +193,18 @@ TEST_F(Driven, more_slowly_or_not_at_all_before_a_shelf_where_that_is_wanted) {
       << "nothing is known of what is near";
 }
 
-TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
+TEST_F(GuideTest, nothing_moves_before_the_person_has_begun_the_trial) {
   const auto hold_start = [&](bool down) { input_.hands.buttons = std::vector<bool>(7, down); };
-  feedback_.take(Odometry{}, time_);
-  feedback_.take(TrialState{TrialState::State::ready}, time_);
+  guide_.take(Odometry{}, time_);
+  guide_.take(TrialState{TrialState::State::ready}, time_);
   pass(0.6);
   EXPECT_TRUE(said(CueKind::press_start));
   kinds_.clear();
   hold(0.0, 1.0);
   bool felt = false;
   for (int tick = 0; tick < 200; ++tick) {
-    feedback_.take(Odometry{}, time_);
-    const Feedback::Decided out = pass(0.02);
+    guide_.take(Odometry{}, time_);
+    const Beat out = pass(0.02);
     EXPECT_EQ(out.command.value().linear, 0.0);
     felt = felt || out.pattern == haptics::Pattern::ready;
   }
@@ -217,7 +216,7 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   EXPECT_EQ(pass(0.02).request, TrialRequest::Kind::begin);
   EXPECT_FALSE(pass(0.02).request) << "held";
   hold_start(false);
-  feedback_.take(TrialState{TrialState::State::running}, time_);
+  guide_.take(TrialState{TrialState::State::running}, time_);
   EXPECT_EQ(pass(0.02).pattern, haptics::Pattern::begun);
   EXPECT_TRUE(said(CueKind::trial_begins));
   pass(0.5);
@@ -227,15 +226,15 @@ TEST_F(FeedbackTest, nothing_moves_before_the_person_has_begun_the_trial) {
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
 }
 
-TEST_F(FeedbackTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs) {
+TEST_F(GuideTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs) {
   const TrialState running{TrialState::State::running};
   const auto beat = [&](double seconds) {
     for (const double end = time_ + seconds; time_ < end;) {
-      feedback_.take(running, time_);
+      guide_.take(running, time_);
       pass(0.25);
     }
   };
-  feedback_.take(running, time_);
+  guide_.take(running, time_);
   pass(5.0);
   EXPECT_FALSE(said(CueKind::record_lost)) << "one that tells its state once is not missed";
   beat(5.0);
@@ -245,19 +244,19 @@ TEST_F(FeedbackTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs
   kinds_.clear();
   beat(6.0);
   EXPECT_FALSE(said(CueKind::record_lost));
-  feedback_.take(TrialState{TrialState::State::preparing}, time_);
-  feedback_.take(TrialState{TrialState::State::preparing}, time_);
+  guide_.take(TrialState{TrialState::State::preparing}, time_);
+  guide_.take(TrialState{TrialState::State::preparing}, time_);
   pass(5.0);
   EXPECT_FALSE(said(CueKind::record_lost)) << "nothing is recorded between trials";
 }
 
-TEST_F(FeedbackTest, the_smallest_place_that_one_is_in_is_told_within_one_tick) {
+TEST_F(GuideTest, the_smallest_place_that_one_is_in_is_told_within_one_tick) {
   using navvi_types::Place;
   Scenario scenario;
   scenario.places = {
       {Place::Kind::room, 1, {}, {Eigen::Vector2d(-9.0, -9.0), Eigen::Vector2d(9.0, 9.0)}},
       {Place::Kind::aisle, 2, {}, {Eigen::Vector2d(-1.0, -9.0), Eigen::Vector2d(1.0, 9.0)}}};
-  feedback_.take(scenario, time_);
+  guide_.take(scenario, time_);
   const auto ask = [&] {
     input_.hands.buttons.assign(15, false);
     pass(0.6);
@@ -271,18 +270,18 @@ TEST_F(FeedbackTest, the_smallest_place_that_one_is_in_is_told_within_one_tick) 
 }
 
 /// With a file of places.
-class RememberTest : public FeedbackTest {
+class RememberTest : public GuideTest {
  protected:
   void use_file(bool locked = false) {
     std::string name = testing::TempDir() + "/places_XXXXXX";
     folder_ = ::mkdtemp(name.data());
     std::ofstream(folder_ + "/places.yaml") << "- {name: gate, x: 1, y: 2}\n";
-    config_.places = folder_ + "/places.yaml";
-    config_.locked = locked;
+    config_->places = folder_ + "/places.yaml";
+    config_->locked = locked;
     restart();
   }
   void restart() {
-    kept_ = std::make_unique<Feedback>(config_, kEnglish);
+    kept_ = std::make_unique<Guide>(config_, kEnglish);
     stand();
   }
   ~RememberTest() override { std::filesystem::remove_all(folder_); }
@@ -292,7 +291,7 @@ class RememberTest : public FeedbackTest {
     kept_->take(Guidance{}, time_);
     kept_->take(Odometry{}, time_);
   }
-  Feedback::Decided beat() { return kept_->update(input_, false, time_ += 0.02); }
+  Beat next() { return beat(*kept_, input_, time_ += 0.02); }
   /// What is told of it.
   std::string remember() {
     place_.reset();
@@ -300,7 +299,7 @@ class RememberTest : public FeedbackTest {
     for (const drive::Button button :
          {drive::Button::next, drive::Button::previous, drive::Button::choose}) {
       input_.asked = {button};
-      const Feedback::Decided output = beat();
+      const Beat output = next();
       input_.asked.clear();
       if (output.place) place_ = output.place;
       told = output.cues.empty() ? "" : output.cues.at(0).text;
@@ -308,9 +307,9 @@ class RememberTest : public FeedbackTest {
     return told;
   }
 
-  FeedbackConfig config_;
+  GuideConfig config_;
   std::string folder_;
-  std::unique_ptr<Feedback> kept_;
+  std::unique_ptr<Guide> kept_;
   std::optional<menu::NamedPlace> place_;
 };
 
@@ -337,33 +336,33 @@ TEST_F(RememberTest, saves_nothing_without_a_file_or_a_known_place) {
   EXPECT_EQ(remember(), "not saved, the position is not known");
   EXPECT_FALSE(place_);
   stand();
-  time_ += 5.0;
+  for (int i = 0; i < 250; ++i) next();
   EXPECT_EQ(remember(), "not saved, the position is not known") << "the last one is old";
 }
 
 TEST_F(RememberTest, saves_what_is_clicked_but_never_in_a_study) {
   use_file();
   kept_->take_place({7.0, 8.0});
-  const Feedback::Decided output = beat();
+  const Beat output = next();
   EXPECT_EQ(output.cues.at(0).text, "saved as place 1");
   EXPECT_EQ(output.place.value().at, Eigen::Vector2d(7.0, 8.0));
-  EXPECT_FALSE(beat().place);
+  EXPECT_FALSE(next().place);
   use_file(true);
   kept_->take_place({7.0, 8.0});
-  EXPECT_FALSE(beat().place);
+  EXPECT_FALSE(next().place);
   EXPECT_NE(remember().substr(0, 5), "saved");
   EXPECT_FALSE(place_);
 }
 
-TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
+TEST_F(GuideTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   Scenario scenario;
   scenario.goal = {1.0, 2.0};
   scenario.places = {{navvi_types::Place::Kind::dock, 1, {3.0, 4.0}}};
-  feedback_.take(scenario, time_);
+  guide_.take(scenario, time_);
   const auto press = [&](std::size_t button) {
     input_.hands.buttons.assign(15, false);
     input_.hands.buttons[button] = true;
-    const Feedback::Decided output = pass(0.02);
+    const Beat output = pass(0.02);
     input_.hands.buttons.assign(15, false);
     pass(0.1);
     return output;
@@ -377,19 +376,19 @@ TEST_F(FeedbackTest, a_goal_is_chosen_by_short_presses_and_the_voice) {
   EXPECT_FALSE(said(CueKind::goal_chosen)) << "the planner has not answered";
   lead_to({3.0, 4.0}, Guidance::State::following);
   EXPECT_EQ(pass(0.02).cues.at(0).text, "you are heading for dock 1");
-  feedback_.take_goal({9.0, 9.0});
-  feedback_.take_goal({3.0, 4.0});
-  feedback_.take_goal({3.0, 4.0});
+  guide_.take_goal({9.0, 9.0});
+  guide_.take_goal({3.0, 4.0});
+  guide_.take_goal({3.0, 4.0});
   press(kDown);
   press(kRight);
   EXPECT_EQ(press(kDown).cues.at(0).text, "the previous goal");
   EXPECT_EQ(press(kRight).goal.value().x(), 9.0);
 }
 
-TEST_F(FeedbackTest, a_goal_that_the_planner_refuses_was_never_headed_for) {
+TEST_F(GuideTest, a_goal_that_the_planner_refuses_was_never_headed_for) {
   Scenario scenario;
   scenario.goal = {1.0, 2.0};
-  feedback_.take(scenario, time_);
+  guide_.take(scenario, time_);
   const auto choose = [&] {
     for (int press = 0; press < 3; ++press) {
       input_.asked = {drive::Button::choose};
@@ -415,7 +414,7 @@ TEST_F(FeedbackTest, a_goal_that_the_planner_refuses_was_never_headed_for) {
 }
 
 /// A session with headphones, before a trial.
-class SidesTest : public FeedbackTest {
+class SidesTest : public GuideTest {
  protected:
   SidesTest() {
     input_.ears = "usb_headphones";
@@ -426,17 +425,11 @@ class SidesTest : public FeedbackTest {
   std::string wait(double seconds) {
     std::string change;
     for (const double end = time_ + seconds; time_ < end - 1e-9;) {
-      feedback_.take(state_, time_);
-      feedback_.take(Odometry{}, time_);
-      const Feedback::Decided output = pass(0.02);
+      guide_.take(state_, time_);
+      guide_.take(Odometry{}, time_);
+      const Beat output = pass(0.02);
       if (!output.change.empty()) change = output.change;
       for (const sounds::Play& play : output.plays) side_ = play.from.y();
-      CueEvent event;
-      event.stage = CueStage::ended;
-      for (const cues::Cue& cue : output.cues) {
-        event.what = cue.kind;
-        feedback_.note({event});
-      }
     }
     return change;
   }
@@ -448,14 +441,14 @@ class SidesTest : public FeedbackTest {
 TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
   EXPECT_EQ(wait(2.0), "");
   EXPECT_TRUE(said(CueKind::which_side));
-  EXPECT_EQ(feedback_.order().value().kind, CueKind::which_side);
+  EXPECT_EQ(guide_.order().value().kind(), CueKind::which_side);
   ASSERT_NE(side_, 0.0);
   EXPECT_FALSE(said(CueKind::press_start));
   hold(side_, 0.0);
   EXPECT_EQ(wait(1.0), "sounds/sides:=usb_headphones");
   EXPECT_TRUE(said(CueKind::press_start));
   EXPECT_FALSE(said(CueKind::sides_wrong));
-  EXPECT_FALSE(feedback_.learnt().value().words_lead);
+  EXPECT_FALSE(guide_.learnt().value().words_lead);
 }
 
 TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
@@ -464,16 +457,16 @@ TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
   EXPECT_EQ(wait(1.0), "");
   EXPECT_TRUE(said(CueKind::sides_wrong));
   EXPECT_TRUE(said(CueKind::press_start));
-  EXPECT_TRUE(feedback_.learnt().value().words_lead);
+  EXPECT_TRUE(guide_.learnt().value().words_lead);
 }
 
 TEST_F(SidesTest, are_not_asked_for_where_they_are_known_or_nothing_sounds) {
-  FeedbackConfig known;
-  known.sounds.sides = "usb_headphones";
-  feedback_.use(known);
+  GuideConfig known;
+  known->sounds.sides = "usb_headphones";
+  guide_.use(known);
   wait(3.0);
   EXPECT_FALSE(said(CueKind::which_side));
-  feedback_.use({});
+  guide_.use({});
   input_.sounds = false;
   wait(3.0);
   EXPECT_FALSE(said(CueKind::which_side));
@@ -483,9 +476,9 @@ TEST_F(SidesTest, are_not_asked_for_where_they_are_known_or_nothing_sounds) {
   EXPECT_FALSE(said(CueKind::which_side)) << "a simulated person";
 }
 
-TEST_F(FeedbackTest, a_goal_that_no_planner_answers_closes_the_menu) {
+TEST_F(GuideTest, a_goal_that_no_planner_answers_closes_the_menu) {
   Scenario scenario;
-  feedback_.take(scenario, time_);
+  guide_.take(scenario, time_);
   input_.asked.assign(3, drive::Button::choose);
   pass(0.02);
   input_.asked.clear();
@@ -494,8 +487,8 @@ TEST_F(FeedbackTest, a_goal_that_no_planner_answers_closes_the_menu) {
   EXPECT_TRUE(said(CueKind::menu_closed));
 }
 
-TEST_F(FeedbackTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_said) {
-  feedback_.take_settings({{"haptics/strength", "0.7"}});
+TEST_F(GuideTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_said) {
+  guide_.offer({{"haptics/strength", "0.7"}});
   pass(0.1);
   input_.asked = {drive::Button::next};
   pass(0.02);
@@ -507,13 +500,13 @@ TEST_F(FeedbackTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_sa
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::menu_closed), 1);
 }
 
-TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_once) {
-  FeedbackConfig config;
-  feedback_.take_settings({{"haptics/strength", "0.7"}, {"sounds/hit/on", "false"}});
+TEST_F(GuideTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_once) {
+  GuideConfig config;
+  guide_.offer({{"haptics/strength", "0.7"}, {"sounds/hit/on", "false"}});
   const auto press = [&](std::size_t button) {
     input_.hands.buttons.assign(15, false);
     input_.hands.buttons[button] = true;
-    const Feedback::Decided output = pass(0.02);
+    const Beat output = pass(0.02);
     input_.hands.buttons.assign(15, false);
     return output;
   };
@@ -525,12 +518,12 @@ TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_
   pass(0.1);
   press(kRight);
   pass(0.1);
-  const Feedback::Decided weaker = press(kDown);
+  const Beat weaker = press(kDown);
   EXPECT_EQ(weaker.cues.at(0).text, "strength of vibration 60 percent");
   EXPECT_EQ(weaker.change, "haptics/strength:=0.6");
   EXPECT_EQ(weaker.pattern, haptics::Pattern::sample);
-  config.haptics.strength = 0.6;
-  feedback_.use(config);
+  config->haptics.strength = 0.6;
+  guide_.use(config);
   EXPECT_NEAR(pass(0.1).rumble.left, 0.6, 1e-9);
   EXPECT_EQ(pass(0.02).change, "") << "once";
 
@@ -545,16 +538,16 @@ TEST_F(FeedbackTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_
   EXPECT_EQ(played(sounds::Earcon::hit_shelf), 1);
 }
 
-TEST_F(FeedbackTest, what_is_near_is_felt_while_it_is_fresh) {
-  feedback_.take(Odometry{}, time_);
-  feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
+TEST_F(GuideTest, what_is_near_is_felt_while_it_is_fresh) {
+  guide_.take(Odometry{}, time_);
+  guide_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
   EXPECT_GT(pass(0.7).rumble.left, 0.5);
   const haptics::Rumble stale = pass(0.3).rumble;
   EXPECT_EQ(stale.left, 0.0);
   EXPECT_EQ(stale.right, 0.0);
 }
 
-TEST_F(FeedbackTest, the_motors_report_a_missing_audio_device_once_there_are_some) {
+TEST_F(GuideTest, the_motors_report_a_missing_audio_device_once_there_are_some) {
   for (const Link missing : {Link::never, Link::lost}) {
     input_.audio = missing;
     input_.motors = false;
@@ -570,7 +563,7 @@ TEST_F(FeedbackTest, the_motors_report_a_missing_audio_device_once_there_are_som
   }
 }
 
-TEST_F(FeedbackTest,
+TEST_F(GuideTest,
        an_alarm_ends_at_once_when_the_device_is_there_and_comes_again_when_it_is_lost) {
   input_.audio = Link::never;
   EXPECT_GT(strongest(0.3), 0.0);
@@ -581,27 +574,27 @@ TEST_F(FeedbackTest,
   EXPECT_EQ(alarms_, 2);
 }
 
-TEST_F(FeedbackTest, a_contact_is_said_once) {
-  feedback_.take(Odometry{}, time_);
-  feedback_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7});
+TEST_F(GuideTest, a_contact_is_said_once) {
+  guide_.take(Odometry{}, time_);
+  guide_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7}, time_);
   pass(3.0);
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::collision_shelf), 1);
 }
 
-TEST_F(FeedbackTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
-  feedback_.take(Odometry{}, time_);
-  feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.1, {0.5, 0.0}, true}}}, time_);
+TEST_F(GuideTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
+  guide_.take(Odometry{}, time_);
+  guide_.take(Proximity{0, {{ThingClass::worker, 1, 0.1, {0.5, 0.0}, true}}}, time_);
   pass(0.5);
-  feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
-  const Feedback::Decided output = pass(0.02);
+  guide_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7}, time_);
+  const Beat output = pass(0.02);
   EXPECT_EQ(output.pattern, haptics::Pattern::hit_shelf);
   EXPECT_EQ(output.rumble.left, 1.0);
   EXPECT_EQ(output.rumble.right, 0.0);
 }
 
-TEST_F(FeedbackTest, a_hit_sounds_once_from_its_side) {
-  feedback_.take(Odometry{}, time_);
-  feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+TEST_F(GuideTest, a_hit_sounds_once_from_its_side) {
+  guide_.take(Odometry{}, time_);
+  guide_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7}, time_);
   pass(1.0);
   ASSERT_EQ(plays_.size(), 1U);
   EXPECT_EQ(plays_[0].earcon, sounds::Earcon::hit_shelf);
@@ -609,7 +602,7 @@ TEST_F(FeedbackTest, a_hit_sounds_once_from_its_side) {
   EXPECT_TRUE(said(CueKind::collision_shelf));
 }
 
-TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
+TEST_F(GuideTest, sounds_do_the_work_of_words_while_they_are_heard) {
   using sounds::Earcon;
   for (int i = 0; i < 10; ++i) {
     lead(0.9);
@@ -628,9 +621,12 @@ TEST_F(FeedbackTest, sounds_do_the_work_of_words_while_they_are_heard) {
   EXPECT_TRUE(said(CueKind::shelf_near));
 }
 
-TEST_F(FeedbackTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_still_counted) {
-  voice_busy_ = true;
-  feedback_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
+TEST_F(GuideTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_still_counted) {
+  input_.speaking = true;
+  input_.asked = {drive::Button::repeat};
+  pass(0.02);
+  input_.asked.clear();
+  guide_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7}, time_);
   for (int i = 0; i < 4; ++i) {
     lead(0.9);
     pass(0.5);
@@ -645,7 +641,7 @@ TEST_F(FeedbackTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_stil
   }
 }
 
-TEST_F(FeedbackTest, no_turn_is_counted_down_to_who_must_stop_or_does_not_drive) {
+TEST_F(GuideTest, no_turn_is_counted_down_to_who_must_stop_or_does_not_drive) {
   for (int i = 0; i < 20; ++i) {
     lead(0.9);
     pass(0.5);
@@ -655,37 +651,38 @@ TEST_F(FeedbackTest, no_turn_is_counted_down_to_who_must_stop_or_does_not_drive)
   EXPECT_TRUE(plays_.empty()) << "has not moved the stick for long";
 }
 
-TEST_F(FeedbackTest, patterns_are_left_out_where_touch_is_not_wanted) {
+TEST_F(GuideTest, patterns_are_left_out_where_touch_is_not_wanted) {
   for (const char* text : {"haptics: {enabled: false}", "haptics: {patterns: false}"}) {
-    FeedbackConfig config;
+    GuideConfig config;
     navvi_config::read(config, YAML::Load(text), "test");
-    Feedback feedback(config, kEnglish);
-    feedback.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7});
-    EXPECT_FALSE(feedback.update(input_, voice_busy_, time_).pattern) << text;
+    Guide guide(config, kEnglish);
+    guide.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7}, time_);
+    EXPECT_FALSE(beat(guide, input_, time_).pattern) << text;
   }
 }
 
-TEST_F(FeedbackTest, what_is_near_is_felt_less_under_a_safety_phrase_and_not_after_the_arrival) {
+TEST_F(GuideTest, what_is_near_is_felt_less_under_a_safety_phrase_and_not_after_the_arrival) {
   const auto felt = [&] {
-    feedback_.take(Odometry{}, time_);
-    feedback_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
+    guide_.take(Odometry{}, time_);
+    guide_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
     return pass(0.7).rumble.left;
   };
   const double full = felt();
   EXPECT_GT(full, 0.5);
-  feedback_.note({{4, CueStage::started, CueKind::obstacle_stop, "stop", Priority::important}});
+  guide_.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7}, time_);
+  input_.speaking = true;
   EXPECT_NEAR(felt(), 0.3 * full, 1e-9);
-  feedback_.note({{4, CueStage::ended, CueKind::obstacle_stop, "stop", Priority::important}});
+  input_.speaking = false;
   EXPECT_NEAR(felt(), full, 1e-9);
   Guidance guidance;
   guidance.state = Guidance::State::arrived;
-  feedback_.take(guidance, time_);
+  guide_.take(guidance, time_);
   EXPECT_EQ(pass(0.02).pattern, haptics::Pattern::arrived);
   pass(1.5);
   EXPECT_EQ(felt(), 0.0);
 }
 
-TEST_F(FeedbackTest, a_button_that_is_held_asks_once) {
+TEST_F(GuideTest, a_button_that_is_held_asks_once) {
   pass(6.0);
   kinds_.clear();
   input_.hands.buttons = {true, false};
@@ -693,7 +690,7 @@ TEST_F(FeedbackTest, a_button_that_is_held_asks_once) {
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::no_goal), 1);
 }
 
-TEST_F(FeedbackTest, what_is_asked_elsewhere_is_answered_like_a_button) {
+TEST_F(GuideTest, what_is_asked_elsewhere_is_answered_like_a_button) {
   pass(6.0);
   kinds_.clear();
   input_.asked = {drive::Button::repeat};
@@ -703,30 +700,30 @@ TEST_F(FeedbackTest, what_is_asked_elsewhere_is_answered_like_a_button) {
   EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::no_goal), 1);
 }
 
-TEST_F(FeedbackTest, guidance_is_kept_but_not_fresh_for_ever) {
-  EXPECT_FALSE(feedback_.guidance());
+TEST_F(GuideTest, guidance_is_kept_but_not_fresh_for_ever) {
+  EXPECT_FALSE(guide_.guidance());
   Guidance guidance;
   guidance.seq = 5;
-  feedback_.take(guidance, time_);
-  EXPECT_TRUE(feedback_.guidance_fresh(time_ + 0.7));
-  EXPECT_FALSE(feedback_.guidance_fresh(time_ + 0.9));
-  EXPECT_EQ(feedback_.guidance().value().seq, 5U);
+  guide_.take(guidance, time_);
+  EXPECT_TRUE(guide_.guidance_fresh(time_ + 0.7));
+  EXPECT_FALSE(guide_.guidance_fresh(time_ + 0.9));
+  EXPECT_EQ(guide_.guidance().value().seq, 5U);
 }
 
 TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
-  FeedbackConfig config;
-  config.haptics.pads = {"abc 0.05 0.05 0.5"};
-  Feedback feedback(config, kEnglish);
+  GuideConfig config;
+  config->haptics.pads = {"abc 0.05 0.05 0.5"};
+  Guide guide(config, kEnglish);
   Devices input;
   input.hands.live = true;
   double time = 10.0;
   for (const auto& [pad, most] : {std::pair("abc", 0.5), std::pair("other", 1.0)}) {
     input.pad = pad;
-    Feedback::Decided output;
+    Beat output;
     for (int i = 0; i < 100; ++i, time += 0.02) {
-      feedback.take(Odometry{}, time);
-      feedback.take(Proximity{0, {{ThingClass::box, 1, 0.0, {0.4, 0.0}}}}, time);
-      output = feedback.update(input, false, time);
+      guide.take(Odometry{}, time);
+      guide.take(Proximity{0, {{ThingClass::box, 1, 0.0, {0.4, 0.0}}}}, time);
+      output = beat(guide, input, time);
     }
     EXPECT_NEAR(output.rumble.left, most, 1e-6) << pad;
   }
@@ -735,31 +732,30 @@ TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
 /// Hears each text for half a second, and presses the arrow down when it is silent.
 class Learner {
  public:
-  explicit Learner(const std::string& lesson) : feedback_(config(lesson), kEnglish) {
+  explicit Learner(const std::string& lesson) : guide_(config(lesson), kEnglish) {
     input_.hands.live = true;
     input_.hands.axes = {0.0, 0.0};
     input_.hands.buttons.resize(15);
     input_.pad = "pad";
   }
-  static FeedbackConfig config(const std::string& lesson) {
-    FeedbackConfig config;
-    config.lesson = lesson;
+  static GuideConfig config(const std::string& lesson) {
+    GuideConfig config;
+    config->lesson = lesson;
     return config;
   }
-  void learn(double seconds, const std::function<void(const Feedback::Decided&)>& note) {
+  void learn(double seconds, const std::function<void(const Beat&)>& note) {
     for (const double end = time_ + seconds; time_ < end; time_ += 0.02) {
-      voice_busy_ = time_ < speaks_until_;
+      input_.speaking = time_ < speaks_until_;
       const double silent = time_ - speaks_until_;
       input_.hands.buttons[12] = silent > 4.0 && silent < 4.1;
-      const Feedback::Decided output = feedback_.update(input_, voice_busy_, time_);
-      if (!output.cues.empty()) speaks_until_ = time_ + 0.5;
+      const Beat output = beat(guide_, input_, time_);
+      if (output.voice.start) speaks_until_ = time_ + 0.5;
       note(output);
     }
   }
 
-  Feedback feedback_;
+  Guide guide_;
   Devices input_;
-  bool voice_busy_ = false;
   double time_ = 10.0;
   double speaks_until_ = 0.0;
 };
@@ -771,7 +767,7 @@ TEST(Lesson, is_given_by_the_motors_and_sounds_of_a_session_and_drives_no_robot)
   std::set<haptics::Pattern> felt;
   double left_alone = 0.0;
   learner.input_.hands.axes = {0.0, 1.0};
-  learner.learn(400.0, [&](const Feedback::Decided& output) {
+  learner.learn(400.0, [&](const Beat& output) {
     EXPECT_FALSE(output.command);
     for (const cues::Cue& cue : output.cues) said.insert(cue.word());
     for (const sounds::Play& play : output.plays) heard.insert(play.earcon);
@@ -790,12 +786,12 @@ TEST(Lesson, lets_a_newcomer_drive_before_the_trial_and_the_guide_says_what_is_u
   Learner learner("tutorial");
   TrialState waits;
   waits.state = TrialState::State::ready;
-  learner.feedback_.take(waits, learner.time_);
+  learner.guide_.take(waits, learner.time_);
   std::set<std::string> said;
   double fastest = 0.0;
-  learner.learn(30.0, [&](const Feedback::Decided& output) {
-    learner.feedback_.take(Odometry{}, learner.time_);
-    learner.feedback_.take(Proximity{}, learner.time_);
+  learner.learn(30.0, [&](const Beat& output) {
+    learner.guide_.take(Odometry{}, learner.time_);
+    learner.guide_.take(Proximity{}, learner.time_);
     learner.input_.hands.axes = {0.0, learner.time_ > 15.0 ? 1.0 : 0.0};
     if (output.command) fastest = std::max(fastest, output.command->linear);
     for (const cues::Cue& cue : output.cues) said.insert(cue.word());

@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/guide_parts.hpp"
+
+namespace navvi_feedback::core {
+namespace {
+
+bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
+
+}  // namespace
+
+std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt) {
+  const drive::InputState& hands = devices.hands;
+  // A device that was opened anew between two ticks was lost between them.
+  const bool live = hands.live && (!last_hands.live || hands.session == last_hands.session);
+  // A key that drives is itself held.
+  const int enable = devices.keyboard ? -1 : config.drive.enable;
+  const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
+  const bool held = teacher.teaching() ? teacher.holds() : senses.trial().holds();
+  // Where the motors led and no longer do, nobody drives on.
+  had_motors = had_motors || devices.felt;
+  const bool numb = config.lead == "hand" && had_motors && !devices.felt && !teacher.teaching();
+  if (held || !enabled || numb) drive.disarm();
+  const drive::Stick stick = hands.stick(config.drive.stick == "right");
+  const std::optional<Velocity> velocity =
+      drive.update(live ? std::optional(stick) : std::nullopt, dt);
+  commanded = velocity.value_or(Velocity{});
+  const bool pushed = live && deflected(drive.shaped(stick));
+  held_unarmed = pushed && enabled && !drive.armed();
+  pushed_disabled = pushed && !enabled && !held;
+  // The last command of a lost stick is zero; none follows it.
+  const bool last = std::exchange(last_hands, hands).live;
+  return velocity || last ? std::optional(commanded) : std::nullopt;
+}
+
+/// What the person asked for stays the measure of being stuck. \return the share that is left
+double Guide::Parts::assist(std::optional<Velocity>& command, const Observation& now) const {
+  if (!command) return 1.0;
+  double share = assistance.share(*command, now.nearby, now.links.proximity == Link::alive);
+  if (now.devices.hands.late) {
+    share = std::min(share, config.drive.assistance.least);
+    command->angular *= config.drive.assistance.least;
+  }
+  command->linear *= share;
+  const double turning = std::abs(command->angular);
+  const double most = sounds.most_rate().value_or(turning);
+  if (turning <= most) return share;
+  command->angular *= most / turning;
+  return std::min(share, most / turning);
+}
+
+}  // namespace navvi_feedback::core

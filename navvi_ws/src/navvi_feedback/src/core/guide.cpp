@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <navvi_config/reader.hpp>
+#include <utility>
+
+#include "core/events.hpp"
+#include "core/guide_parts.hpp"
+#include "lead/flow.hpp"
+
+namespace navvi_feedback::core {
+namespace {
+
+constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
+
+}  // namespace
+
+Guide::Parts::Parts(const GuideConfig::Values& config, const std::filesystem::path& file)
+    : config(config),
+      senses(config.kStale),
+      drive(config.drive),
+      assistance(config.drive.assistance),
+      buttons(config.buttons),
+      touch(config.haptics),
+      sounds(config.sounds),
+      phrases(file, config.cues.wording),
+      policy(config.cues, phrases),
+      teacher(config.lesson, phrases, config.buttons, config.haptics, config.sounds,
+              0.5 * config.drive.max_turn / config.drive.turn_acceleration, config.questions) {
+  menu.lock(config.locked);
+  if (!config.places.empty()) menu.take(menu::read_places(config.places));
+  if (config.lead == "hand" && !config.haptics.enabled)
+    throw navvi_config::ConfigError(
+        "lead is hand, but haptics/enabled is false; the motors lead only where they are on");
+}
+
+void Guide::Parts::take(const TrialState& state, double time) {
+  using State = TrialState::State;
+  if (state.state == State::running && senses.trial().state != State::running) {
+    runs = true;
+    last_words = false;
+    following.forgive();
+  }
+  senses.take(state, time);
+  menu.take(state);
+}
+
+void Guide::Parts::take(const Scenario& scenario, double time) {
+  senses.take(scenario, time);
+  menu.take(scenario);
+}
+
+Output Guide::Parts::update(const Devices& devices, double time) {
+  const double dt = std::clamp(time - last_update.value_or(time), 0.0, kLongestTick);
+  last_update = time;
+  Output out;
+  out.command = command(devices, dt);
+  Observation now = observe(devices, dt, time);
+  ask_side(now, time, out);
+  out.share = assist(out.command, now);
+  touch.use_pad(devices.pad);
+  out.alarm_begins = touch.report(devices.audio, devices.motors);
+  teacher.update(now, time);
+  const cues::Asked asked = obey(now, dt, out);
+  decided = policy.update(now, asked, time);
+  teacher.join(decided);
+  if (!teacher.speaks()) lesson.reset();
+  if (teacher.speaks() && !teacher.taught().cues.empty()) lesson = teacher.taught().cues.back();
+  touch.begin(decided, now.contacts, teacher.taught(), now.lead == Lead::hand);
+  decided.erase(std::remove_if(decided.begin(), decided.end(),
+                               [](const cues::Cue& cue) { return cue.felt; }),
+                decided.end());
+  out.answers =
+      std::any_of(decided.begin(), decided.end(), [](const cues::Cue& cue) { return cue.asked; });
+  const sounds::Soundscape::Steering led = steering(now, dt);
+  for (const sounds::Play& play : sounds.update(decided, now, led, teacher.taught(), time))
+    out.plays.push_back(play);
+  auto course = pilot.update(lasts(now.lead) && !teacher.speaks() ? led.off : std::nullopt,
+                             now.nearby, now.motion().linear, config.drive.max_forward,
+                             now.lead == Lead::hand, time);
+  if (now.lead == Lead::flow) following.update(course, now.motion(), time);
+  if (const auto& lesson_course = teacher.taught().course) {
+    course = lesson_course->course;
+    now.lead = lesson_course->lead;
+  }
+  if (now.lead == Lead::flow && course) out.flow = lead::flow_of(*course);
+  out.flow_gain =
+      (now.voice_busy ? config.sounds.kFlowUnderWords : 1.0) * config.sounds.turn.volume;
+  out.rumble = touch.update(now, course, teacher.taught(), important.has_value(), dt);
+  out.lesson_over = teacher.over();
+  out.record = teacher.record();
+  out.settings = teacher.settings();
+  if (teacher.alone()) out.command.reset();
+  move_motors(touch.playing(), devices, time, out);
+  say(queue.update(decided, devices.speaking, time), devices, out);
+  return out;
+}
+
+Observation Guide::Parts::observe(const Devices& devices, double dt, double time) {
+  Observation now = senses.observe(devices, dt, time);
+  now.pressed = buttons.update(devices.hands);
+  now.pressed.insert(now.pressed.end(), devices.asked.begin(), devices.asked.end());
+  now.stick = drive.shaped(devices.hands.stick(config.drive.stick == "right"));
+  now.robotless = teacher.alone();
+  now.stick_held_unarmed = held_unarmed && !now.robotless;
+  now.stick_disabled = pushed_disabled && !now.robotless;
+  now.commanded = commanded;
+  now.voice_busy = !queue.empty();
+  now.begun = std::exchange(begun, {});
+  const haptics::HapticsConfig& haptics = config.haptics;
+  now.motors = devices.felt && haptics.enabled;
+  now.touch = devices.motors && haptics.enabled && haptics.patterns;
+  const sounds::SoundsConfig& sounds = config.sounds;
+  now.audible = devices.sounds && sounds.enabled;
+  if (now.audible) now.sounds = {sounds.shelf.on, sounds.near.on};
+  now.lead = leading(now);
+  return now;
+}
+
+void Guide::Parts::move_motors(std::optional<haptics::Pattern> pattern, const Devices& devices,
+                               double time, Output& out) {
+  const haptics::RumbleOutput::Due due = rumble_output.update(out.rumble, time);
+  out.rumble_due = due.feedback;
+  out.rumble_moved = due.moved;
+  // The record holds what can have been felt.
+  if (due.changed && devices.felt) out.felt = rumble_event(out.rumble, pattern, ++rumbles);
+  if (flow_output.update(out.flow, time).changed) out.flowed = flow_event(out.flow, ++sounds_begun);
+}
+
+void Guide::Parts::say(const cues::CueQueue::Step& step, const Devices& devices, Output& out) {
+  out.voice = step;
+  words = step.events;
+  // Where no words are wanted, there are none in the record.
+  if (devices.words) out.said = heard_words.of(words, devices.sounds);
+  policy.note(words);
+  for (const CueEvent& event : words) {
+    const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+    if (event.stage == CueStage::ended && event.kind() == CueKind::which_side) side.told();
+    if (event.stage == CueStage::started && spoken) begun.push_back(spoken->lesson);
+    if (event.stage == CueStage::started && event.priority == Priority::important)
+      important = event.id;
+    else if (event.id == important && event.stage != CueStage::queued)
+      important.reset();
+  }
+}
+
+Guide::Guide(const GuideConfig& config, const std::filesystem::path& phrases)
+    : parts_(std::make_unique<Parts>(*config.operator->(), phrases)) {}
+Guide::~Guide() = default;
+
+void Guide::take(const Message& message, double time) {
+  std::visit([&](const auto& value) { parts_->take(value, time); }, message);
+}
+void Guide::take_goal(const Eigen::Vector2d& goal) { parts_->menu.take_goal(goal); }
+void Guide::take_place(const Eigen::Vector2d& at) { parts_->shown = at; }
+void Guide::offer(const std::map<std::string, std::string>& values) {
+  parts_->menu.take_settings(values);
+}
+void Guide::use(const GuideConfig& config) {
+  const GuideConfig::Values& values = parts_->config = *config.operator->();
+  parts_->touch.use(values.haptics);
+  parts_->sounds.use(values.sounds);
+  parts_->policy.use(values.cues.wording);
+  parts_->teacher.use(values.haptics, values.sounds, values.cues.wording);
+}
+
+void Guide::announce(CueKind kind) { parts_->news.push_back(kind); }
+
+void Guide::end_trial(std::optional<CueKind> words) {
+  parts_->runs = false;
+  if (!words) return;
+  announce(*words);
+  parts_->last_words = true;
+}
+
+std::optional<Output> Guide::update(const Devices& devices, double time) {
+  if (parts_->stall.catches_up(time)) return std::nullopt;
+  Devices now = devices;
+  now.states.insert(now.states.end(), parts_->news.begin(), parts_->news.end());
+  parts_->news.clear();
+  return parts_->update(now, time);
+}
+
+bool Guide::end_session() {
+  if (parts_->runs) end_trial(CueKind::trial_over);
+  return !parts_->news.empty();
+}
+
+bool Guide::has_last_words() const { return parts_->last_words && !parts_->queue.empty(); }
+
+Output Guide::hear_out(const Devices& devices, double time) {
+  Output out;
+  parts_->move_motors(std::nullopt, devices, time, out);
+  parts_->say(parts_->queue.update({}, devices.speaking, time), devices, out);
+  return out;
+}
+
+Output Guide::finish(const Devices& devices) {
+  Output out;
+  parts_->say(parts_->queue.clear(), devices, out);
+  return out;
+}
+
+CueEvent Guide::event_of(const sounds::Play& play) {
+  return sound_event(play, ++parts_->sounds_begun);
+}
+
+std::optional<CueEvent> Guide::order() const {
+  std::optional<cues::Cue> order = parts_->policy.order();
+  const bool urgent =
+      order && (order->priority == Priority::important || traits(order->kind).shown);
+  if (parts_->lesson && !urgent) {
+    order = parts_->lesson;
+    order->kind = CueKind::lesson;  // also where it says what the guide would say
+  }
+  if (!order) return std::nullopt;
+  return CueEvent{0, CueStage::started, navvi_types::Spoken(order->kind, order->lesson),
+                  order->text, order->priority};
+}
+
+std::optional<sounds::Learnt> Guide::learnt() const {
+  return parts_->config.lead == "ticks" ? parts_->sounds.learnt() : std::nullopt;
+}
+
+const std::optional<Guidance>& Guide::guidance() const { return parts_->senses.guidance(); }
+
+bool Guide::guidance_fresh(double time) const { return parts_->senses.guidance_fresh(time); }
+
+}  // namespace navvi_feedback::core
