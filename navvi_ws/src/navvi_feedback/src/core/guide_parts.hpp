@@ -20,14 +20,7 @@
 #include "lessons/teacher.hpp"
 #include "menu/menu.hpp"
 #include "senses/senses.hpp"
-
-namespace navvi_feedback {
-using navvi_types::Odometry;
-using navvi_types::Proximity;
-using navvi_types::Scenario;
-using navvi_types::TrialRequest;
-using senses::Devices;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::core {
 

@@ -2,15 +2,10 @@
 
 #include <cstdint>
 #include <map>
-#include <navvi_types/motion.hpp>
-#include <navvi_types/thing.hpp>
 #include <optional>
 #include <vector>
 
-namespace navvi_feedback {
-using navvi_types::NearThing;
-using navvi_types::Velocity;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -1,19 +1,11 @@
 #pragma once
 
-#include <navvi_types/cue_event.hpp>
-#include <navvi_types/cue_kind.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "navvi_feedback/sounds/earcon.hpp"
-
-namespace navvi_feedback {
-using navvi_types::CueEvent;
-using navvi_types::CueKind;
-using navvi_types::CueStage;
-using navvi_types::Priority;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::cues {
 

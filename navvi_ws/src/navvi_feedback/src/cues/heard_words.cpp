@@ -2,9 +2,6 @@
 
 namespace navvi_feedback::cues {
 
-using navvi_types::CueEvent;
-using navvi_types::CueStage;
-
 std::vector<CueEvent> HeardWords::of(std::vector<CueEvent> events, bool heard) {
   std::vector<CueEvent> result;
   for (CueEvent& event : events) {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "navvi_types/cue_event.hpp"
+#include "types.hpp"
 
 namespace navvi_feedback::cues {
 
@@ -12,8 +12,7 @@ class HeardWords {
  public:
   /// \param heard  what is played now reaches somebody
   /// \return the events; words that start unheard are dropped instead, and say no more
-  [[nodiscard]] std::vector<navvi_types::CueEvent> of(std::vector<navvi_types::CueEvent> events,
-                                                      bool heard);
+  [[nodiscard]] std::vector<CueEvent> of(std::vector<CueEvent> events, bool heard);
 
  private:
   std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device

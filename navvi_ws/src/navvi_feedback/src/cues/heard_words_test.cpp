@@ -5,9 +5,6 @@
 namespace navvi_feedback::cues {
 namespace {
 
-using navvi_types::CueEvent;
-using navvi_types::CueStage;
-
 CueEvent event(std::uint32_t id, CueStage stage) {
   CueEvent event;
   event.id = id;

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <map>
 #include <navvi_types/names.hpp>
-#include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +11,7 @@
 #include "cues/cue.hpp"
 #include "cues/cue_config.hpp"
 #include "cues/side.hpp"
-
-namespace navvi_feedback {
-using navvi_types::ThingClass;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::cues {
 

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <navvi_types/motion.hpp>
-#include <navvi_types/thing.hpp>
 #include <string>
 #include <vector>
 
 #include "navvi_config/field.hpp"
+#include "types.hpp"
 
 namespace navvi_feedback::drive {
 
@@ -28,8 +27,8 @@ class Assistance {
 
   /// \param nearby  in base_link \param fresh  false: nothing is known of what is near
   /// \return the share [0, 1] of the wanted linear speed that is let through
-  [[nodiscard]] double share(const navvi_types::Velocity& wanted,
-                             const std::vector<navvi_types::NearThing>& nearby, bool fresh) const;
+  [[nodiscard]] double share(const Velocity& wanted, const std::vector<NearThing>& nearby,
+                             bool fresh) const;
 
  private:
   AssistanceConfig config_;

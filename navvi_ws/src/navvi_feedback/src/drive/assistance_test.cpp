@@ -7,8 +7,6 @@
 namespace navvi_feedback::drive {
 namespace {
 
-using navvi_types::NearThing;
-using navvi_types::ThingClass;
 using Things = std::vector<NearThing>;
 
 NearThing at(double x, double y, double gap) { return {ThingClass::shelf, 1, gap, {x, y}, false}; }

@@ -1,16 +1,12 @@
 #pragma once
 
-#include <navvi_types/motion.hpp>
 #include <optional>
 #include <string>
 
 #include "drive/assistance.hpp"
 #include "navvi_config/field.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
-
-namespace navvi_feedback {
-using navvi_types::Velocity;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::drive {
 

@@ -1,18 +1,13 @@
 #pragma once
 
 #include <map>
-#include <navvi_types/thing.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "navvi_config/field.hpp"
 #include "navvi_feedback/haptics/rumble.hpp"
-
-namespace navvi_feedback {
-using navvi_types::NearThing;
-using navvi_types::ThingClass;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::haptics {
 

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <navvi_types/thing.hpp>
 #include <optional>
 #include <vector>
 
-namespace navvi_feedback::lead {
+#include "types.hpp"
 
-using navvi_types::NearThing;
+namespace navvi_feedback::lead {
 
 /// What a person who drives is to do now: what a continuous display shows them.
 struct Course {

@@ -11,7 +11,6 @@ namespace navvi_feedback::lessons {
 namespace {
 
 using drive::Button;
-using navvi_types::TrialState;
 
 constexpr double kDegree = navvi_types::radians(1.0);
 constexpr double kStill = 0.03;   // m/s and rad/s

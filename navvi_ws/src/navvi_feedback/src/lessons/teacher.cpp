@@ -10,8 +10,6 @@
 
 namespace navvi_feedback::lessons {
 
-using navvi_types::TrialState;
-
 Teacher::Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsConfig& buttons,
                  const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
                  double robot_delay, const std::string& questions)

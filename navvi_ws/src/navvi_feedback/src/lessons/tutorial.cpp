@@ -9,7 +9,6 @@ namespace navvi_feedback::lessons {
 namespace {
 
 using drive::Button;
-using navvi_types::TrialState;
 
 constexpr double kIdle = 15.0;        // s without a try, before it is told again
 constexpr int kManyTries = 4;         // after which the ways out are told once more

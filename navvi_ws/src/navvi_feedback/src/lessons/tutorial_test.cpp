@@ -11,7 +11,6 @@ namespace navvi_feedback::lessons {
 namespace {
 
 using drive::Button;
-using navvi_types::TrialState;
 
 /// A newcomer with a robot that obeys the stick, who hears each sentence for a second.
 class TutorialTest : public testing::Test {

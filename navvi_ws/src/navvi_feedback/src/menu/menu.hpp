@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 #include <map>
-#include <navvi_types/scenario.hpp>
-#include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,12 +10,7 @@
 #include "drive/buttons.hpp"
 #include "menu/places_file.hpp"
 #include "menu/setting.hpp"
-
-namespace navvi_feedback {
-using navvi_types::Scenario;
-using navvi_types::TrialRequest;
-using navvi_types::TrialState;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::menu {
 

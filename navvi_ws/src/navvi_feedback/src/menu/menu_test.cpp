@@ -6,7 +6,6 @@ namespace navvi_feedback::menu {
 namespace {
 
 using drive::Button;
-using navvi_types::TrialRequest;
 using State = navvi_types::TrialState::State;
 
 class MenuTest : public testing::Test {

@@ -55,7 +55,6 @@ class CuePlayer {
 
  private:
   void take(const navvi_types::CueEvent& cue) {
-    using navvi_types::CueStage;
     if (cue.modality() == navvi_types::Modality::rumble) {
       rumble_ = {cue.left, cue.right};
     } else if (cue.word() == to_string(sounds::Earcon::flow)) {

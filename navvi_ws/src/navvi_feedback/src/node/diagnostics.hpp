@@ -2,7 +2,6 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
-#include <navvi_types/cue_kind.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,10 +11,9 @@
 #include "devices/speaker.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
 #include "node/beat.hpp"
+#include "types.hpp"
 
 namespace navvi_feedback::node {
-
-using navvi_types::CueKind;
 
 // The health of the hardware, truthfully: a device that is absent is never OK, and "state" tells
 // one that works from one that is missing and one that is off.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <navvi_types/cue_kind.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,14 +10,9 @@
 #include "node/node_config.hpp"
 #include "person/person_file.hpp"
 #include "person/settings_saver.hpp"
-
-namespace navvi_feedback {
-using navvi_types::CueKind;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::node {
-
-using navvi_types::CueKind;
 
 /// What a person sets while driving, and what a lesson finds for them: in force at once, kept in
 /// their file, and written where the node is started anew. And the places that they remember, which

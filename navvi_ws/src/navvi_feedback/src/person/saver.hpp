@@ -4,14 +4,13 @@
 #include <exception>
 #include <functional>
 #include <future>
-#include <navvi_types/cue_kind.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
-namespace navvi_feedback::person {
+#include "types.hpp"
 
-using navvi_types::CueKind;
+namespace navvi_feedback::person {
 
 /// What could not be kept.
 struct Failure {

@@ -3,16 +3,12 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Core>
-#include <navvi_types/guidance.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cues/phrases.hpp"
-
-namespace navvi_feedback {
-using navvi_types::Guidance;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::picture {
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <navvi_types/cue_kind.hpp>
-#include <navvi_types/drive_state.hpp>
-#include <navvi_types/guidance.hpp>
-#include <navvi_types/motion.hpp>
-#include <navvi_types/scenario.hpp>
-#include <navvi_types/thing.hpp>
-#include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,16 +8,7 @@
 #include "navvi_feedback/drive/input_state.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 #include "senses/lead.hpp"
-
-namespace navvi_feedback {
-using navvi_types::Contact;
-using navvi_types::CueKind;
-using navvi_types::DriveState;
-using navvi_types::Guidance;
-using navvi_types::NearThing;
-using navvi_types::TrialState;
-using navvi_types::Velocity;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::senses {
 

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <navvi_types/drive_state.hpp>
-#include <navvi_types/guidance.hpp>
-#include <navvi_types/motion.hpp>
-#include <navvi_types/scenario.hpp>
-#include <navvi_types/thing.hpp>
-#include <navvi_types/trial.hpp>
 #include <optional>
 #include <vector>
 
@@ -21,17 +14,13 @@ class Senses {
   /// \param stale  s; guidance, proximity or odometry older than this is lost
   explicit Senses(double stale) : stale_(stale) {}
 
-  void take(const navvi_types::Proximity& proximity, double time) {
-    nearby_ = {proximity.things, time};
-  }
+  void take(const Proximity& proximity, double time) { nearby_ = {proximity.things, time}; }
   void take(const Guidance& guidance, double time);
   void take(const DriveState& state, double /*time*/);
   /// A trial_node that repeats its state, and then is silent while a trial runs, records no more.
   void take(const TrialState& state, double time);
-  void take(const navvi_types::Odometry& odometry, double time) {
-    motion_ = {odometry.velocity, time};
-  }
-  void take(const navvi_types::Scenario& scenario, double /*time*/) { scenario_ = scenario; }
+  void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
+  void take(const Scenario& scenario, double /*time*/) { scenario_ = scenario; }
   void take(const Contact& contact, double /*time*/) { contacts_.push_back(contact); }
 
   /// \param devices  now
@@ -73,7 +62,7 @@ class Senses {
   TrialState trial_;
   std::optional<double> trial_time_;  ///< when it came
   bool trial_repeats_ = false;        ///< the same state has come again
-  std::optional<navvi_types::Scenario> scenario_;
+  std::optional<Scenario> scenario_;
   std::vector<Contact> contacts_;  ///< since the last observation
   bool seen_hands_ = false;        ///< there were live ones
 };

@@ -5,11 +5,6 @@
 namespace navvi_feedback::senses {
 namespace {
 
-using navvi_types::Odometry;
-using navvi_types::Proximity;
-using navvi_types::Scenario;
-using navvi_types::ThingClass;
-
 constexpr double kStale = 0.8;  // s
 
 Guidance to(const Eigen::Vector2d& goal) {

@@ -5,8 +5,6 @@
 namespace navvi_feedback::sounds {
 namespace {
 
-using navvi_types::ThingClass;
-
 /// How often it sounds in 10 s.
 int count(const SoundsConfig& config, Earcon earcon, const Observation& now) {
   Soundscape soundscape(config);

@@ -1,15 +1,11 @@
 #pragma once
 
-#include <navvi_types/motion.hpp>
 #include <optional>
 
 #include "navvi_feedback/sounds/earcon.hpp"
 #include "sounds/sounds_config.hpp"
 #include "sounds/turn_learning.hpp"
-
-namespace navvi_feedback {
-using navvi_types::Velocity;
-}  // namespace navvi_feedback
+#include "types.hpp"
 
 namespace navvi_feedback::sounds {
 
