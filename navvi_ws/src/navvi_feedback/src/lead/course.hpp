@@ -20,11 +20,11 @@ class Pilot {
   /// Call it at 50 Hz.
   /// \param off  rad, clockwise, from the nose to where to steer; nullopt: nowhere
   /// \param speed  m/s, of the robot
-  /// \param full  m/s, at full stick \param by_hand  pulses show it
+  /// \param full  m/s, at full stick
   /// \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::optional<Course> update(std::optional<double> off,
                                              const std::vector<NearThing>& nearby, double speed,
-                                             double full, bool by_hand, double time);
+                                             double full, double time);
 
  private:
   double went_ = 0.0;  ///< s, when the way was last free to drive, or there was none

@@ -12,8 +12,8 @@ constexpr double kFull = 0.9;  // m/s
 std::optional<Course> shown(std::optional<double> off, const std::vector<NearThing>& nearby = {},
                             double speed = 0.0) {
   Pilot pilot;
-  (void)pilot.update(off, {}, speed, kFull, false, 9.9);
-  return pilot.update(off, nearby, speed, kFull, false, 10.0);
+  (void)pilot.update(off, {}, speed, kFull, 9.9);
+  return pilot.update(off, nearby, speed, kFull, 10.0);
 }
 
 NearThing thing(double gap, double x, double y, bool moving) {
@@ -40,9 +40,9 @@ TEST(Pilot, slows_down_before_what_is_ahead_and_stands_before_what_moves) {
 TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
   Pilot pilot;
   const std::vector<NearThing> waits = {thing(0.3, 0.5, 0.5, true)};
-  (void)pilot.update(0.0, {}, 0.0, kFull, false, 9.9);
-  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, false, 11.0));
-  const auto course = pilot.update(0.0, waits, 0.0, kFull, false, 12.5);
+  (void)pilot.update(0.0, {}, 0.0, kFull, 9.9);
+  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, 11.0));
+  const auto course = pilot.update(0.0, waits, 0.0, kFull, 12.5);
   ASSERT_TRUE(course);
   EXPECT_GT(course->speed, 0.0);
   EXPECT_LT(course->speed, 0.2);
