@@ -19,7 +19,7 @@ def session(folder, *words):
 def test_a_deafblind_person_reaches_the_goal_by_the_motors_alone(tmp_path):
     summary, journal = session(tmp_path, "operator/person/type:=deafblind", "feedback/lead:=hand", "speech:=false")
     assert summary["result"] == "reached" and summary["safe_stop_count"] == "0", summary
-    assert summary["cues_spoken"] == "0" and summary["sounds_played"] == "0", summary
+    assert summary["cues_spoken"] == "0" and summary["sounds_played"] in ("0", "n/a"), summary
     assert "modality=rumble;kind=begun" in journal and "modality=rumble;kind=arrived" in journal, journal[-2000:]
 
 
