@@ -16,9 +16,9 @@ Lead Guide::Parts::leading(const Observation& now) const {
   const Lead wanted = navvi_types::from_word<Lead>(config.lead).value_or(Lead::words);
   const bool deaf = touch.deaf() && !now.devices.sounds;
   if ((wanted == Lead::hand || deaf) && now.motors) return Lead::hand;
-  if (!now.audible) return Lead::words;
-  if (wanted == Lead::flow && following.follows()) return Lead::flow;
-  return wanted != Lead::words && sounds.leads() ? Lead::ticks : Lead::words;
+  // Where the sides are wrong no sound leads, be it ticks or one that lasts.
+  if (!now.audible || wanted == Lead::words || !sounds.leads()) return Lead::words;
+  return wanted == Lead::flow && following.follows() ? Lead::flow : Lead::ticks;
 }
 
 /// Before a trial, of a person whom sounds are to lead, by each sound device once.
