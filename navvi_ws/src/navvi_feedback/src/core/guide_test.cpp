@@ -460,6 +460,34 @@ TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
   EXPECT_TRUE(guide_.learnt().value().words_lead);
 }
 
+TEST_F(SidesTest, that_are_wrong_are_led_by_no_sound_that_lasts_either) {
+  GuideConfig config;
+  navvi_config::read(config, YAML::Load("{lead: flow}"), "test");
+  for (const bool right : {true, false}) {
+    Guide guide(config, kEnglish);
+    double side = 0.0, flow = 0.0;
+    for (int i = 0; i < 500; ++i) {
+      const double time = 10.0 + 0.02 * i;
+      state_.state = i < 250 ? TrialState::State::ready : TrialState::State::running;
+      input_.hands.axes = {i > 150 && i < 200 ? (right ? side : -side) : 0.0, 0.0};
+      Guidance guidance;
+      guidance.state = Guidance::State::following;
+      guidance.goal = {20.0, 0.0};
+      guidance.waypoint_distance = guidance.goal_distance = 20.0;
+      guide.take(state_, time);
+      guide.take(Odometry{}, time);
+      guide.take(Proximity{}, time);
+      guide.take(guidance, time);
+      const auto output = guide.update(input_, time);
+      for (const sounds::Play& play : output->plays)
+        if (i <= 150) side = play.from.y();
+      input_.speaking = false;
+      flow = output->flow.left + output->flow.right;
+    }
+    EXPECT_EQ(flow > 0.0, right);
+  }
+}
+
 TEST_F(SidesTest, are_not_asked_for_where_they_are_known_or_nothing_sounds) {
   GuideConfig known;
   known->sounds.sides = "usb_headphones";
