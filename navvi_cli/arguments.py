@@ -35,8 +35,9 @@ class LaunchFile:
         self.path = LAUNCH / name
         root = ElementTree.parse(self.path).getroot()
         args = {arg.get("name"): arg for arg in root.findall("arg")}
-        self.arguments = {name: (arg.get("default", ""), " ".join(arg.get("doc").split())) for name, arg in args.items()
-                          if arg.get("doc") and not INTERNAL.fullmatch(name)}
+        docs = {arg.get("name"): arg.get("doc") for side in [*sides(root), root] for arg in side.findall("arg") if arg.get("doc")}
+        self.arguments = {name: (arg.get("default", ""), " ".join(docs[name].split())) for name, arg in args.items()
+                          if name in docs and not INTERNAL.fullmatch(name)}
         self.parts = sorted(name[:-len("_parameters")] for name in args if name.endswith("_parameters"))
         self.fixed = fixed_parameters(root)
 
@@ -49,10 +50,17 @@ class LaunchFile:
                   for name, (default, doc) in self.arguments.items())]
 
 
+def sides(root):
+    """The launch files that one includes, and those that they include."""
+    for include in root.iter("include"):
+        side = ElementTree.parse(LAUNCH / include.get("file").rpartition("/")[2]).getroot()
+        yield side
+        yield from sides(side)
+
+
 def fixed_parameters(root):
     """Parameters such as sim/seed that a launch file, or one that it includes, gives to a node as <param>: these win."""
-    included = [include.get("file").rpartition("/")[2] for include in root.iter("include")]
-    roots = [root, *(ElementTree.parse(LAUNCH / name).getroot() for name in included)]
+    roots = [root, *sides(root)]
     return {f"{node.get('name')[:-len('_node')]}/{param.get('name')}" for root in roots for node in root.iter("node")
             if node.get("name").endswith("_node") for param in node.findall("param")}
 

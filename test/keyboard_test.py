@@ -28,7 +28,7 @@ class Keys:
         self.folder = folder
         self.processes = [self.start("openbox")]
         echoes = {topic: self.start("rostopic", "echo", "-p", topic, output=folder / name)
-                  for name, topic in (("commands", "/cmd_vel"), ("cues", "/navvi/cues"))}
+                  for name, topic in (("commands", "/navvi/command"), ("cues", "/navvi/cues"))}
         self.processes.extend(echoes.values())
         self.node = self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false", "_listener:=topic")
         self.processes.append(self.node)
@@ -79,7 +79,7 @@ class Keys:
         with open(self.folder / name) as file:
             return list(csv.DictReader(file))
 
-    def command(self, field="linear.x"):
+    def command(self, field="twist.linear.x"):
         """m/s or rad/s, of the last command."""
         rows = self.rows("commands")
         return float(rows[-1][f"field.{field}"]) if rows else 0.0
@@ -88,7 +88,7 @@ class Keys:
         """Whether no command moves the robot for so long."""
         before = len(self.rows("commands"))
         time.sleep(seconds)
-        return all(float(row["field.linear.x"]) == float(row["field.angular.z"]) == 0.0 for row in self.rows("commands")[before:])
+        return all(float(row["field.twist.linear.x"]) == float(row["field.twist.angular.z"]) == 0.0 for row in self.rows("commands")[before:])
 
     def said(self, kind):
         return any(row["field.kind"] == kind for row in self.rows("cues"))
@@ -238,7 +238,7 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     with frozen_window(rviz):
         before = len(keys.rows("commands"))
         time.sleep(2)
-        assert min(float(row["field.linear.x"]) for row in keys.rows("commands")[before:]) > 0.8
+        assert min(float(row["field.twist.linear.x"]) for row in keys.rows("commands")[before:]) > 0.8
         keys.xdotool("keyup", "Up")
         assert eventually(lambda: keys.command() == 0.0, 2)
         steps = keys.menu_steps()

@@ -15,7 +15,7 @@ import pytest
 import rosbag
 import rosgraph
 import rospy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import TwistStamped
 from navvi_msgs.msg import Cue
 from octomap_msgs.msg import Octomap
 
@@ -28,7 +28,7 @@ WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/odom", "/octomap_binary", "/occupied_cells_vis_array", "/navvi/scene",
     "/navvi/obstacles", "/navvi/proximity", "/navvi/contacts", "/move_base_simple/goal", "/navvi/path",
-    "/navvi/guidance", "/navvi/navmesh", "/joy", "/joy/set_feedback", "/cmd_vel", "/navvi/cues", "/navvi/markers",
+    "/navvi/guidance", "/navvi/navmesh", "/joy", "/joy/set_feedback", "/navvi/command", "/navvi/cues", "/navvi/markers",
     "/navvi/events", "/diagnostics",
 }
 BAGGED = TOPICS - {"/clock", "/occupied_cells_vis_array", "/navvi/navmesh"}
@@ -79,7 +79,7 @@ class Session:
         os.environ["ROS_MASTER_URI"], os.environ["ROS_IP"] = self.uri, "127.0.0.1"
         rospy.init_node("outside_observer", anonymous=True, disable_signals=True, disable_rostime=True)
         rospy.Subscriber("/navvi/cues", Cue, self.heard.append)
-        rospy.Subscriber("/cmd_vel", Twist, lambda msg: setattr(self, "command", msg.linear.x))
+        rospy.Subscriber("/navvi/command", TwistStamped, lambda msg: setattr(self, "command", msg.twist.linear.x))
         rospy.Subscriber("/octomap_binary", Octomap, lambda msg: setattr(self, "octomap", msg))
 
     def nodes(self):

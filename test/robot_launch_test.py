@@ -73,7 +73,8 @@ class Robot:
         self.places = places_file(folder)
         self.processes = []
         self.run("rosparam", "set", "use_sim_time", "true")
-        self.start("rosrun", "navvi_sim", "sim_node", "cmd_vel:=/robot/cmd_vel", "odom:=/robot/odom", f"_world:={WORLD}")
+        self.start("rosrun", "navvi_sim", "sim_node", "navvi/command:=/robot/command", "odom:=/robot/odom", f"_world:={WORLD}")
+        self.start("/usr/bin/python3", str(ROOT / "test/wheels.py"))
         self.start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic",
                    "speech:=false", "rviz:=false", f"out:={folder}", f"places:={self.places}",
                    "feedback_parameters:={listener: topic}")

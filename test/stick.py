@@ -7,9 +7,9 @@ kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pu
        stage held the wheels at zero, the time until the robot stood still, and the fastest speed in the 5 s after that.
 halt   likewise, then halts feedback_node for 3 s; prints the kinds of what it says until it tells what became of the wheels.
 pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the fastest speed from 0.5 s to 3 s after it lives again.
-intrude  a neutral stick while this process itself commands full speed to /cmd_vel, at 1 kHz; prints the fastest speed within 3 s, the
+intrude  a neutral stick while this process itself commands full speed to /navvi/command, at 1 kHz; prints the fastest speed within 3 s, the
        fastest with the stick pushed while it goes on, and the node that drive_state names.
-forge  this process commands a turn to /cmd_vel under the name of feedback_node while the stick is pushed; prints the fastest motion, in m/s or
+forge  this process commands a turn to /navvi/command under the name of feedback_node while the stick is pushed; prints the fastest motion, in m/s or
        rad/s, from 0.6 s after its first command for 3 s, the node that drive_state names, and the fastest speed once it is over and the stick
        was neutral.
 twin   a second node of the name /feedback_node commands full speed; prints the fastest speed from 0.6 s after its first command for 3 s.
@@ -30,7 +30,7 @@ import xmlrpc.client
 
 import rosgraph
 import rospy
-from geometry_msgs.msg import Twist, Vector3
+from geometry_msgs.msg import Twist, TwistStamped, Vector3
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from navvi_msgs.msg import Cue, DriveState, TrialState
@@ -40,14 +40,14 @@ from sensor_msgs.msg import Joy
 class Stick:
     def __init__(self):
         rospy.init_node("stick", disable_rostime=True)
-        self.speed, self.turn, self.stopped, self.intruder, self.wanted = 0.0, 0.0, None, "", 0.0
+        self.speed, self.turn, self.stopped, self.intruder, self.wanted, self.stamp = 0.0, 0.0, None, "", 0.0, rospy.Time()
         rospy.Subscriber("/odom", Odometry, self.note_motion, tcp_nodelay=True)
-        rospy.Subscriber("/cmd_vel", Twist, lambda msg: setattr(self, "wanted", msg.linear.x), tcp_nodelay=True)
+        rospy.Subscriber("/navvi/command", TwistStamped, lambda msg: setattr(self, "wanted", msg.twist.linear.x), tcp_nodelay=True)
         rospy.Subscriber("/navvi/drive_state", DriveState, self.note_stop, tcp_nodelay=True)
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
 
     def note_motion(self, msg):
-        self.speed, self.turn = msg.twist.twist.linear.x, msg.twist.twist.angular.z
+        self.speed, self.turn, self.stamp = msg.twist.twist.linear.x, msg.twist.twist.angular.z, msg.header.stamp
 
     def note_stop(self, msg):
         self.intruder = msg.intruder
@@ -70,6 +70,12 @@ class Stick:
             if self.hold(1.0, lambda: self.speed >= speed, 3.0):
                 return
 
+    def command(self, **twist):
+        """With the robot's time."""
+        command = TwistStamped(twist=Twist(**twist))
+        command.header.stamp = self.stamp
+        return command
+
     @staticmethod
     def pid(node):
         return xmlrpc.client.ServerProxy(rosgraph.Master("/stick").lookupNode(node)).getPid("/stick")[2]
@@ -89,19 +95,17 @@ class Stick:
 
     def intrude(self):
         self.hold(0.0, lambda: False, 1.0)
-        commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1000)
-        command = Twist(linear=Vector3(x=1.0))
-        flood = rospy.Timer(rospy.Duration(0.001), lambda _: commands.publish(command))
+        commands = rospy.Publisher("/navvi/command", TwistStamped, queue_size=1000)
+        flood = rospy.Timer(rospy.Duration(0.001), lambda _: commands.publish(self.command(linear=Vector3(x=1.0))))
         alone = self.fastest(0.0, 3.0)
         driven = self.fastest(1.0, 3.0)
         flood.shutdown()
         return alone, driven, self.intruder
 
     def forge(self):
-        commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1, headers={"callerid": "/feedback_node"})
+        commands = rospy.Publisher("/navvi/command", TwistStamped, queue_size=1, headers={"callerid": "/feedback_node"})
         self.hold(1.0, lambda: commands.get_num_connections() > 0, 10.0)
-        command = Twist(angular=Vector3(z=1.0))
-        forging = rospy.Timer(rospy.Duration(0.02), lambda _: commands.publish(command))
+        forging = rospy.Timer(rospy.Duration(0.02), lambda _: commands.publish(self.command(angular=Vector3(z=1.0))))
         self.hold(1.0, lambda: False, 0.6)
         forged = self.fastest(1.0, 3.0)
         forging.shutdown()
@@ -179,11 +183,13 @@ class Stick:
 NODES = ("/sim_node", "/nav_node", "/feedback_node", "/trial_node")
 TWIN = """
 import rospy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import TwistStamped
+from rosgraph_msgs.msg import Clock
 rospy.init_node("feedback_node", disable_rostime=True)
-commands = rospy.Publisher("/cmd_vel", Twist, queue_size=1)
-command = Twist()
-command.linear.x = 1.0
+commands = rospy.Publisher("/navvi/command", TwistStamped, queue_size=1)
+command = TwistStamped()
+command.twist.linear.x = 1.0
+rospy.Subscriber("/clock", Clock, lambda msg: setattr(command.header, "stamp", msg.clock))
 while not rospy.is_shutdown():
     commands.publish(command)
     rospy.sleep(0.02)

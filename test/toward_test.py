@@ -101,8 +101,9 @@ def led(master, tmp_path_factory):
         processes.append(subprocess.Popen(words, env=master, stdout=log, stderr=subprocess.STDOUT))
     subprocess.run(["rosparam", "set", "use_sim_time", "true"], env=master, check=True, timeout=60)
     hidden = [f"{topic}:=/truth/{topic}" for topic in TRUTH]
-    start("rosrun", "navvi_sim", "sim_node", "cmd_vel:=/robot/cmd_vel", "odom:=/robot/odom", *hidden, f"_world:={world}",
+    start("rosrun", "navvi_sim", "sim_node", "navvi/command:=/robot/command", "odom:=/robot/odom", *hidden, f"_world:={world}",
           "_sensing:=lidar", f"_start:={START[0]},{START[1]},0", "_goal:=-4,-3")
+    start("/usr/bin/python3", str(ROOT / "test/wheels.py"))
     start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic", "speech:=false",
           "rviz:=false", f"out:={folder}", "feedback_parameters:={listener: topic}")
     try:

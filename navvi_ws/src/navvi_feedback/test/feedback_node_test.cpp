@@ -1,5 +1,5 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
@@ -33,9 +33,9 @@ class FeedbackNode : public testing::Test {
     proximity_msg_.detection_radius = 5.0;
     proximity_msg_.header.frame_id = "base_link";
     path_msg_.header.frame_id = "map";
-    cmd_vel_ = node_.subscribe<geometry_msgs::Twist>(
-        "cmd_vel", 100, [this](const geometry_msgs::Twist::ConstPtr& msg) {
-          twist_ = *msg;
+    commands_ = node_.subscribe<geometry_msgs::TwistStamped>(
+        "navvi/command", 100, [this](const geometry_msgs::TwistStamped::ConstPtr& msg) {
+          twist_ = msg->twist;
           ++twists_;
         });
     feedback_ = node_.subscribe<sensor_msgs::JoyFeedbackArray>(
@@ -66,7 +66,7 @@ class FeedbackNode : public testing::Test {
         << "feedback_node does not listen";
   }
 
-  bool twist_source() const { return cmd_vel_.getNumPublishers() > 0; }
+  bool twist_source() const { return commands_.getNumPublishers() > 0; }
 
   /// Sends the present world until `condition` holds.
   bool until(const std::function<bool()>& condition, double seconds = 6.0) {
@@ -127,7 +127,7 @@ class FeedbackNode : public testing::Test {
   ros::Publisher contacts_ = node_.advertise<navvi_msgs::Contact>("navvi/contacts", 10);
   ros::Publisher path_ = node_.advertise<nav_msgs::Path>("navvi/path", 1, true);
   tf2_ros::TransformBroadcaster broadcaster_;
-  ros::Subscriber cmd_vel_, feedback_, cues_, markers_, diagnostics_;
+  ros::Subscriber commands_, feedback_, cues_, markers_, diagnostics_;
 
   std::optional<float> stick_ = 0.0F;
   ros::Time joy_stamp_;

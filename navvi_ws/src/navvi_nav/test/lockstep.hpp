@@ -61,7 +61,7 @@ class Lockstep : public testing::Test {
       time_ += kTick;
       if (has_pose_)
         navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_, time_);
-      navigator_.set_speed(speed_);
+      navigator_.set_velocity({speed_, 0.0});
       if (has_obstacles_) {
         std::vector<MovingThing> things = things_;
         for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));

@@ -24,6 +24,9 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
         "commands beyond are clamped and counted");
   visit(max_angular, "max_angular", Range{0.1, 6.0}, "rad/s",
         "commands beyond are clamped and counted");
+  visit(foresight, "foresight", navvi_config::Any{}, "",
+        "guidance is ahead of the robot by the measured delay of the connection, where that is "
+        "felt, and speed is limited by it");
   visit(driver, "driver", navvi_config::Any{}, "",
         "the node whose commands are taken, such as /feedback_node; those of any other are ignored "
         "and announced; empty: any node may drive, one at a time");
@@ -44,17 +47,22 @@ bool CommandGate::admit(const std::string& node, unsigned link, const Instant& n
   return true;
 }
 
-void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, const Instant& now) {
+void CommandGate::receive(const Command& command, const Instant& now) {
   expire(now);
-  if (!command || !within(command->linear, config_.max_linear * config_.kAbsurdFactor) ||
-      !within(command->angular, config_.max_angular * config_.kAbsurdFactor)) {
+  const auto& velocity = command.velocity;
+  if (!velocity || !within(velocity->linear, config_.max_linear * config_.kAbsurdFactor) ||
+      !within(velocity->angular, config_.max_angular * config_.kAbsurdFactor) ||
+      !(command.age >= -config_.kAhead)) {
     ++rejected_;
     bad_since_valid_ = true;
     return;
   }
-  command_.linear = std::clamp(command->linear, -config_.max_linear, config_.max_linear);
-  command_.angular = std::clamp(command->angular, -config_.max_angular, config_.max_angular);
-  if (command_.linear != command->linear || command_.angular != command->angular) ++clamped_;
+  const LinkMeter::Late late = link_meter_.lateness(command.age);
+  link_meter_.add(command.age, command.seq, now.wall);
+  if (late == LinkMeter::Late::too_late) return;
+  command_.linear = std::clamp(velocity->linear, -config_.max_linear, config_.max_linear);
+  command_.angular = std::clamp(velocity->angular, -config_.max_angular, config_.max_angular);
+  if (command_.linear != velocity->linear || command_.angular != velocity->angular) ++clamped_;
 
   const bool neutral = std::abs(command_.linear) <= config_.kNeutralLinear &&
                        std::abs(command_.angular) <= config_.kNeutralAngular;
@@ -63,8 +71,20 @@ void CommandGate::receive(const std::optional<navvi_types::Velocity>& command, c
   } else if (!neutral_since_) {
     neutral_since_ = now;
   }
+  if (late == LinkMeter::Late::slow) {
+    command_.linear *= config_.kLateShare;
+    command_.angular *= config_.kLateShare;
+  }
   last_valid_ = now;
   bad_since_valid_ = false;
+}
+
+navvi_types::LinkState CommandGate::link_state(std::int64_t stamp) const {
+  constexpr double kFelt = 0.05, kMost = 3.0;  // s
+  navvi_types::LinkState state = link_meter_.state(stamp);
+  if (config_.foresight && state.round_trip >= kFelt)
+    state.foresight = std::min(state.round_trip, kMost);
+  return state;
 }
 
 void CommandGate::stop(Reason reason) {

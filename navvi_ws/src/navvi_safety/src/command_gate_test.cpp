@@ -20,7 +20,7 @@ class Gate : public testing::Test {
     for (int i = 0; i < steps; ++i) {
       now_.wall += kStep;
       now_.sim += kStep;
-      gate_.receive(command, now_);
+      gate_.receive({command}, now_);
       wheels_ = gate_.update(now_);
     }
   }
@@ -31,7 +31,17 @@ class Gate : public testing::Test {
       now_.wall += kStep;
       now_.sim += kStep;
       ASSERT_TRUE(gate_.admit("/feedback_node", link, now_));
-      gate_.receive(command, now_);
+      gate_.receive({command}, now_);
+      wheels_ = gate_.update(now_);
+    }
+  }
+  /// As hold(), by a connection with that delay, s.
+  void delayed(double seconds, const Velocity& command, double age) {
+    const int steps = static_cast<int>(std::lround(seconds / kStep));
+    for (int i = 0; i < steps; ++i) {
+      now_.wall += kStep;
+      now_.sim += kStep;
+      gate_.receive({command, age, ++seq_}, now_);
       wheels_ = gate_.update(now_);
     }
   }
@@ -46,6 +56,7 @@ class Gate : public testing::Test {
   }
 
   Instant now_{100.0, 5.0};
+  unsigned seq_ = 0;
   CommandGate gate_{CommandGateConfig{}};
   Velocity wheels_;
 };
@@ -82,7 +93,7 @@ TEST_F(Gate, stops_when_either_clock_says_the_command_is_old) {
 TEST_F(Gate, S7_a_pause_of_ten_minutes_of_simulated_time_stops_nobody_who_is_heard) {
   start();
   for (double end = now_.wall + 600.0; now_.wall < end; now_.wall += kStep) {
-    gate_.receive(Velocity{1.0, 0.5}, now_);
+    gate_.receive({Velocity{1.0, 0.5}}, now_);
     wheels_ = gate_.update(now_);
     ASSERT_EQ(gate_.state(), CommandGate::State::running) << now_.wall;
   }
@@ -178,7 +189,7 @@ TEST_F(Gate, is_stopped_for_a_command_that_comes_too_late_without_an_update_befo
   start();
   now_.wall += 0.3;
   now_.sim += 0.3;
-  gate_.receive(Velocity{1.0, 0.0}, now_);
+  gate_.receive({Velocity{1.0, 0.0}}, now_);
   EXPECT_EQ(gate_.state(), CommandGate::State::stopped);
   EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_lost);
   hold(1.0, Velocity{1.0, 0.0});
@@ -208,15 +219,80 @@ TEST_F(Gate, bad_commands_are_counted_and_extend_nothing) {
   for (const double bad : {nan, inf, -inf, 1e308}) {
     now_.wall += kStep;
     now_.sim += kStep;
-    gate_.receive(Velocity{bad, 0.0}, now_);
-    gate_.receive(Velocity{0.0, bad}, now_);
+    gate_.receive({Velocity{bad, 0.0}}, now_);
+    gate_.receive({Velocity{0.0, bad}}, now_);
   }
-  gate_.receive(std::nullopt, now_);
+  gate_.receive({}, now_);
   EXPECT_EQ(gate_.rejected(), 9u);
   EXPECT_EQ(gate_.update(now_).linear, 1.0) << "the last valid command is 80 ms old";
   hold(0.2, std::nullopt);
   EXPECT_EQ(wheels_.linear, 0.0);
   EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_invalid);
+}
+
+TEST_F(Gate, a_command_from_the_future_is_rejected) {
+  start();
+  const unsigned before = gate_.rejected();
+  delayed(0.3, Velocity{1.0, 0.0}, -0.31);
+  EXPECT_EQ(wheels_.linear, 0.0);
+  EXPECT_EQ(gate_.rejected() - before, 15u);
+}
+
+TEST_F(Gate, the_same_delay_all_the_time_is_usual) {
+  for (const double delay : {0.05, 0.5, 2.5}) {
+    delayed(0.4, Velocity{}, delay);
+    delayed(6.0, Velocity{1.0, 0.0}, delay);
+    EXPECT_EQ(wheels_.linear, 1.0) << delay;
+    EXPECT_EQ(gate_.late(), LinkMeter::Late::no);
+    EXPECT_NEAR(gate_.link_state(0).round_trip, delay, 1e-9);
+    EXPECT_NEAR(gate_.link_state(0).foresight, delay, 1e-9);
+    silence(10.0, 10.0);
+  }
+}
+
+TEST_F(Gate, a_command_later_than_usual_drives_slowly_and_one_too_late_not_at_all) {
+  delayed(6.0, Velocity{}, 0.2);
+  delayed(0.1, Velocity{1.0, 1.0}, 0.45);
+  EXPECT_EQ(wheels_.linear, 1.0);
+  delayed(0.1, Velocity{1.0, 1.0}, 0.55);
+  EXPECT_DOUBLE_EQ(wheels_.linear, 0.4);
+  EXPECT_DOUBLE_EQ(wheels_.angular, 0.4);
+  EXPECT_EQ(gate_.late(), LinkMeter::Late::slow);
+  delayed(0.2, Velocity{1.0, 1.0}, 1.25);
+  EXPECT_DOUBLE_EQ(wheels_.linear, 0.4) << "the last that counted is 0.2 s old";
+  delayed(0.1, Velocity{1.0, 1.0}, 1.25);
+  EXPECT_EQ(wheels_.linear, 0.0);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_lost);
+}
+
+TEST_F(Gate, a_burst_after_a_gap_never_drives) {
+  for (const double gap : {0.3, 1.0, 5.0}) {
+    delayed(6.0, Velocity{}, 0.1);
+    delayed(1.0, Velocity{1.0, 0.0}, 0.1);
+    ASSERT_EQ(wheels_.linear, 1.0);
+    silence(gap, gap);
+    // All that was held up comes at once: 0.4 s of a neutral stick among it.
+    for (double age = 0.1 + gap; age > 0.1; age -= kStep) {
+      const bool neutral = age < 0.1 + gap - 0.1 && age > 0.1 + gap - 0.5;
+      gate_.receive({Velocity{neutral ? 0.0 : 1.0, 0.0}, age, ++seq_}, now_);
+      EXPECT_EQ(gate_.update(now_).linear, 0.0) << gap << " " << age;
+    }
+    delayed(1.0, Velocity{1.0, 0.0}, 0.1);
+    EXPECT_EQ(wheels_.linear, 0.0) << "the stick was not neutral since then";
+  }
+}
+
+TEST(LinkMeter, counts_the_commands_that_never_came) {
+  LinkMeter meter;
+  for (unsigned seq = 1; seq <= 200; ++seq)
+    if (seq % 4 != 0 || seq == 200) meter.add(0.1 + 0.01 * (seq % 2), seq, kStep * seq);
+  const navvi_types::LinkState state = meter.state(7);
+  EXPECT_NEAR(state.loss, 0.245, 1e-9);
+  EXPECT_NEAR(state.round_trip_99, 0.11, 1e-9);
+  EXPECT_GT(state.jitter, 0.004);
+  EXPECT_EQ(state.stamp, 7);
+  meter.add(0.1, 1, 10.0);
+  EXPECT_EQ(meter.state(0).loss, 0.0) << "the person's side was started anew";
 }
 
 TEST_F(Gate, a_command_beyond_the_limits_is_clamped_and_counted) {

@@ -17,25 +17,28 @@ unsigned CommandInput::link_of(const Header& header) {
   return last_link_;
 }
 
-void CommandInput::receive(const ros::MessageEvent<const geometry_msgs::Twist>& event,
+void CommandInput::receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& event,
                            const Instant& now) {
   const std::string& node = event.getPublisherName();
   if (!gate_.admit(node, link_of(event.getConnectionHeaderPtr()), now)) {
     ROS_WARN_THROTTLE(5.0,
-                      "cmd_vel: commands of %s are ignored; the parameter driver names the "
+                      "navvi/command: commands of %s are ignored; the parameter driver names the "
                       "node that may drive",
                       node.c_str());
     return;
   }
   if (gate_.reason() == CommandGate::Reason::driver_changed)
     ROS_WARN_THROTTLE(5.0,
-                      "cmd_vel: commands of %s come by another connection than before; the wheels "
+                      "navvi/command: commands of %s come by another connection than before; the wheels "
                       "stand until one connection alone has sent zero for a while",
                       node.c_str());
   const unsigned before = gate_.rejected();
-  gate_.receive(navvi_types::from_msg(*event.getConstMessage()), now);
+  const geometry_msgs::TwistStamped& msg = *event.getConstMessage();
+  gate_.receive({navvi_types::from_msg(msg.twist), (now.sim - msg.header.stamp.toSec()) / rate_,
+                 msg.header.seq},
+                now);
   if (gate_.rejected() != before)
-    ROS_WARN_THROTTLE(1.0, "cmd_vel: %u commands rejected, not finite or absurdly large",
+    ROS_WARN_THROTTLE(1.0, "navvi/command: %u commands rejected, not finite, absurdly large or stamped ahead",
                       gate_.rejected());
 }
 

@@ -1,4 +1,4 @@
-// The last stage before a real robot's wheels: passes /cmd_vel on to the robot's own topic, or
+// The last stage before a real robot's wheels: turns /navvi/command into the robot's velocity, or
 // stops.
 
 #include <ros/ros.h>
@@ -6,6 +6,7 @@
 
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
+#include <navvi_safety/link_outlet.hpp>
 #include <navvi_safety/now.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
@@ -32,14 +33,15 @@ int main(int argc, char** argv) {
     ros::NodeHandle node;
     navvi_safety::CommandGate gate(config.gate);
     navvi_safety::CommandInput input(gate);
-    ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("robot/cmd_vel", 1);
+    ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
-    using Command = ros::MessageEvent<const geometry_msgs::Twist>;
+    using Command = ros::MessageEvent<const geometry_msgs::TwistStamped>;
     const boost::function<void(const Command&)> receive = [&](const Command& command) {
       input.receive(command, navvi_safety::now());
     };
-    ros::Subscriber commands = node.subscribe<geometry_msgs::Twist, const Command&>(
-        "cmd_vel", navvi_safety::kCommandQueue, receive);
+    ros::Subscriber commands = node.subscribe<geometry_msgs::TwistStamped, const Command&>(
+        "navvi/command", navvi_safety::kCommandQueue, receive, {},
+        ros::TransportHints().tcpNoDelay());
     std::optional<navvi_types::DriveState> published;
     const auto publish_state = [&] {
       const auto now = gate.drive_state(navvi_types::to_ns(ros::Time::now()));
@@ -49,6 +51,7 @@ int main(int argc, char** argv) {
       state.publish(navvi_types::to_msg(now));
       published = now;
     };
+    navvi_safety::LinkOutlet link(node);
     publish_state();
 
     bool pressed = false;
@@ -56,6 +59,7 @@ int main(int argc, char** argv) {
       if (pressed) gate.stop(navvi_safety::CommandGate::Reason::emergency_stop);
       wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
       publish_state();
+      link.publish(gate, navvi_safety::now().wall, navvi_types::to_ns(ros::Time::now()));
     };
     // By wall clock, so that a stopped simulation clock cannot keep the wheels turning.
     ros::WallTimer timer = node.createWallTimer(ros::WallDuration(0.02), [&](auto&) { step(); });

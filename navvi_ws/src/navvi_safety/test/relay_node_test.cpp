@@ -1,6 +1,7 @@
 // The relay before a real robot's wheels, seen from outside. All the while, another node wants to
 // drive at 0.4 m/s.
 
+#include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
 #include <ros/network.h>
 #include <ros/ros.h>
@@ -20,7 +21,7 @@ class Relay : public testing::Test {
   Relay() {
     connect();
     wheels_ = node_.subscribe<geometry_msgs::Twist>(
-        "robot/cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) {
+        "cmd_vel", 1, [this](const geometry_msgs::Twist::ConstPtr& msg) {
           speed_ = msg->linear.x;
           EXPECT_NE(speed_, 0.4) << "the wheels obey another node";
         });
@@ -32,14 +33,19 @@ class Relay : public testing::Test {
   /// By another connection than before.
   void connect() {
     commands_.shutdown();
-    commands_ = node_.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    commands_ = node_.advertise<geometry_msgs::TwistStamped>("navvi/command", 1);
   }
   /// Sends `speed` at 50 Hz until `done`, for at most 10 s. A speed that is not finite goes out as
   /// it is.
   bool drive_until(double speed, const std::function<bool()>& done) {
-    geometry_msgs::Twist twist;
-    twist.linear.x = speed;
-    return spin_until([&] { commands_.publish(twist); }, done);
+    geometry_msgs::TwistStamped command;
+    command.twist.linear.x = speed;
+    return spin_until(
+        [&] {
+          command.header.stamp = ros::Time::now();
+          commands_.publish(command);
+        },
+        done);
   }
   bool wait_until(const std::function<bool()>& done) {
     return spin_until([] {}, done);

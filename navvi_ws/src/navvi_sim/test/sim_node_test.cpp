@@ -1,6 +1,6 @@
 // sim_node from outside: what it says, and that it stops.
 
-#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <navvi_msgs/Contact.h>
@@ -50,7 +50,7 @@ class SimNode : public testing::Test {
   /// One connection for all: a topic that is advertised again at once can end up with two, and the
   /// wheels stand for those.
   static void SetUpTestSuite() {
-    commands_ = ros::NodeHandle().advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    commands_ = ros::NodeHandle().advertise<geometry_msgs::TwistStamped>("navvi/command", 1);
   }
   static void TearDownTestSuite() { commands_.shutdown(); }
 
@@ -77,9 +77,10 @@ class SimNode : public testing::Test {
     return command_until([&] { return linear; }, done);
   }
   void send(double linear) {
-    geometry_msgs::Twist twist;
-    twist.linear.x = linear;
-    commands_.publish(twist);
+    geometry_msgs::TwistStamped command;
+    if (odom_.any()) command.header.stamp = odom_.last().header.stamp;
+    command.twist.linear.x = linear;
+    commands_.publish(command);
   }
   bool start_moving() {
     // Neutral first, and once more where a busy machine has let a command come too late.

@@ -274,6 +274,16 @@ std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg) {
   return DriveState{*state, *reason, msg.rejected, to_ns(msg.header.stamp), msg.intruder};
 }
 
+std::optional<LinkState> from_msg(const navvi_msgs::LinkState& msg) {
+  const auto late = from_number<LinkState::Late>(msg.late);
+  if (!late || !within({msg.round_trip, msg.round_trip_99, msg.jitter, msg.foresight}, 0.0, kLongestTime) ||
+      !within({msg.loss}, 0.0, 1.0))
+    return std::nullopt;
+  return LinkState{msg.round_trip, msg.round_trip_99, msg.jitter,
+                   msg.loss,       msg.foresight,     *late,
+                   to_ns(msg.header.stamp)};
+}
+
 std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg) {
   if (!valid(msg.start) || !valid(msg.goal)) return std::nullopt;
   std::vector<Place> places;
@@ -411,6 +421,18 @@ navvi_msgs::DriveState to_msg(const DriveState& state) {
   msg.reason = static_cast<std::uint8_t>(state.reason);
   msg.rejected = state.rejected;
   msg.intruder = state.intruder;
+  return msg;
+}
+
+navvi_msgs::LinkState to_msg(const LinkState& state) {
+  navvi_msgs::LinkState msg;
+  msg.header.stamp = from_ns(state.stamp);
+  msg.round_trip = state.round_trip;
+  msg.round_trip_99 = state.round_trip_99;
+  msg.jitter = state.jitter;
+  msg.loss = state.loss;
+  msg.foresight = state.foresight;
+  msg.late = static_cast<std::uint8_t>(state.late);
   return msg;
 }
 

@@ -229,6 +229,18 @@ navvi_msgs::DriveState drive_state() {
   return msg;
 }
 
+navvi_msgs::LinkState link_state() {
+  navvi_msgs::LinkState msg;
+  msg.header = header("");
+  msg.round_trip = 0.2;
+  msg.round_trip_99 = 0.4;
+  msg.jitter = 0.03;
+  msg.loss = 0.01;
+  msg.foresight = 0.2;
+  msg.late = navvi_msgs::LinkState::SLOW;
+  return msg;
+}
+
 TEST(MsgConversion, EveryMessageSurvivesTheRoundTrip) {
   expect_same_after_round_trip(twist());
   expect_same_after_round_trip(odometry());
@@ -240,6 +252,7 @@ TEST(MsgConversion, EveryMessageSurvivesTheRoundTrip) {
   expect_same_after_round_trip(scenario());
   expect_same_after_round_trip(state_hash());
   expect_same_after_round_trip(drive_state());
+  expect_same_after_round_trip(link_state());
   navvi_msgs::TrialState state;
   state.state = navvi_msgs::TrialState::READY;
   expect_same_after_round_trip(state);
@@ -495,6 +508,7 @@ TEST(MsgConversion, AConstantThatIsNoneDropsItsMessage) {
   expect_dropped(cue(), &C::priority, Priority{});
   expect_dropped(drive_state(), &D::state, DriveState::State{});
   expect_dropped(drive_state(), &D::reason, DriveState::Reason{});
+  expect_dropped(link_state(), &navvi_msgs::LinkState::late, LinkState::Late{});
   expect_dropped(navvi_msgs::TrialState(), &navvi_msgs::TrialState::state, TrialState::State{});
   expect_dropped(navvi_msgs::TrialRequest(), &navvi_msgs::TrialRequest::request,
                  TrialRequest::Kind{});
@@ -536,6 +550,7 @@ TEST(MsgConversion, EachEnumerationHasTheConstantsOfItsMessage) {
   EXPECT_EQ(words(Priority{}), constants_of<navvi_msgs::Cue>("priority"));
   EXPECT_EQ(words(DriveState::State{}), constants_of<navvi_msgs::DriveState>("state"));
   EXPECT_EQ(words(DriveState::Reason{}), constants_of<navvi_msgs::DriveState>("reason"));
+  EXPECT_EQ(words(LinkState::Late{}), constants_of<navvi_msgs::LinkState>("late"));
 }
 
 TEST(MsgConversion, AnUnknownClassIsOtherAndSoIsTheFloor) {

@@ -25,6 +25,7 @@ Guide::Parts::Parts(const GuideConfig::Values& config, const std::filesystem::pa
       policy(config.cues, phrases),
       teacher(config.lesson, phrases, config.buttons, config.haptics, config.sounds,
               0.5 * config.drive.max_turn / config.drive.turn_acceleration, config.questions) {
+  if (config.link.simulated()) wire.emplace(config.link);
   menu.lock(config.locked);
   if (!config.places.empty()) menu.take(menu::read_places(config.places));
   if (config.lead == "hand" && !config.haptics.enabled)
@@ -56,6 +57,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   Observation now = observe(devices, dt, time);
   ask_side(now, time, out);
   out.share = assist(out.command, now);
+  foresight.sent(out.command.value_or(Velocity{}), time);
   touch.use_pad(devices.pad);
   out.alarm_begins = touch.report(devices.audio, devices.motors);
   teacher.update(now, time);
@@ -93,8 +95,33 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   return out;
 }
 
+void Guide::Parts::receive(Devices& devices, double time) {
+  wire->down.send({std::nullopt, devices.robot}, time);
+  wire->down.receive(time, [&](const Wire::Report& report, double sent) {
+    wire->seen = sent;
+    if (report.message)
+      std::visit([&](const auto& value) { take(value, time); }, *report.message);
+    else
+      wire->robot = report.robot;
+  });
+  devices.robot = wire->robot;
+}
+
+void Guide::Parts::send(Output& out, double time) {
+  if (out.command) wire->up.send({*out.command, wire->seen.value_or(time)}, time);
+  out.command.reset();
+  wire->up.receive(time, [&](const Wire::Sent& sent, double) {
+    out.command = sent.command;
+    out.lag = time - sent.seen;
+  });
+}
+
 Observation Guide::Parts::observe(const Devices& devices, double dt, double time) {
-  Observation now = senses.observe(devices, dt, time);
+  const double ahead = senses.foresight();
+  Devices seen = devices;
+  if (ahead > 0.0 && seen.robot) seen.robot = foresight.place(*seen.robot, ahead, time);
+  Observation now = senses.observe(seen, dt, time);
+  if (ahead > 0.0) foresight.look_ahead(now, ahead, time);
   now.pressed = buttons.update(devices.hands);
   now.pressed.insert(now.pressed.end(), devices.asked.begin(), devices.asked.end());
   now.stick = drive.shaped(devices.hands.stick(config.drive.stick == "right"));
@@ -146,7 +173,10 @@ Guide::Guide(const GuideConfig& config, const std::filesystem::path& phrases)
 Guide::~Guide() = default;
 
 void Guide::take(const Message& message, double time) {
-  std::visit([&](const auto& value) { parts_->take(value, time); }, message);
+  if (parts_->wire)
+    parts_->wire->down.send({message, std::nullopt}, time);
+  else
+    std::visit([&](const auto& value) { parts_->take(value, time); }, message);
 }
 void Guide::take_goal(const Eigen::Vector2d& goal) { parts_->menu.take_goal(goal); }
 void Guide::take_place(const Eigen::Vector2d& at) { parts_->shown = at; }
@@ -175,7 +205,10 @@ std::optional<Output> Guide::update(const Devices& devices, double time) {
   Devices now = devices;
   now.states.insert(now.states.end(), parts_->news.begin(), parts_->news.end());
   parts_->news.clear();
-  return parts_->update(now, time);
+  if (parts_->wire) parts_->receive(now, time);
+  Output out = parts_->update(now, time);
+  if (parts_->wire) parts_->send(out, time);
+  return out;
 }
 
 bool Guide::end_session() {

@@ -16,6 +16,7 @@ void GuideConfig::describe(navvi_config::Visitor& visit) {
         "what leads along the way: words; ticks that count turns down, and words; flow, a sound "
         "that lasts, its side where to steer, its pitch how fast; hand, pulses of the motors, "
         "likewise, without any sound");
+  visit.group("link", values_->link);
   visit.group("drive", values_->drive);
   visit.group("buttons", values_->buttons);
   visit.group("haptics", values_->haptics);

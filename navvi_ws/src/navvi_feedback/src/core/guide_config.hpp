@@ -6,6 +6,7 @@
 #include "drive/buttons.hpp"
 #include "drive/drive.hpp"
 #include "haptics/haptics.hpp"
+#include "link/link_config.hpp"
 #include "navvi_feedback/core/guide.hpp"
 #include "sounds/sounds_config.hpp"
 
@@ -21,6 +22,7 @@ struct GuideConfig::Values {
   bool locked = false;          ///< the menu offers neither goals nor settings
   std::string places;           ///< path of a file as menu::read_places() takes it; empty: none
   std::string lead = "ticks";   ///< as senses::Lead
+  link::LinkConfig link;
   drive::DriveConfig drive;
   drive::ButtonsConfig buttons;
   haptics::HapticsConfig haptics;

@@ -19,6 +19,8 @@
 #include "lead/following.hpp"
 #include "lessons/teacher.hpp"
 #include "menu/menu.hpp"
+#include "link/delay_line.hpp"
+#include "senses/foresight.hpp"
 #include "senses/senses.hpp"
 #include "types.hpp"
 
@@ -57,6 +59,28 @@ struct Guide::Parts {
   /// Sends words to the voice, and keeps what became of them.
   void say(const cues::CueQueue::Step& step, const Devices& devices, Output& out);
 
+  /// A simulated connection, and what is under way on it.
+  struct Wire {
+    /// What the robot's side reports.
+    struct Report {
+      std::optional<Message> message;  ///< nullopt: its place
+      std::optional<navvi_types::Pose2> robot;
+    };
+    struct Sent {
+      Velocity command;
+      double seen = 0.0;  ///< s, when the last of the reports that it answers was sent
+    };
+
+    explicit Wire(const link::LinkConfig& config) : down(config, 1), up(config, 2) {}
+
+    link::DelayLine<Report> down;
+    link::DelayLine<Sent> up;
+    std::optional<navvi_types::Pose2> robot;
+    std::optional<double> seen;
+  };
+  void receive(Devices& devices, double time);
+  void send(Output& out, double time);
+
   /// A goal of the menu that the planner has not answered yet.
   struct Chosen {
     Eigen::Vector2d goal;     ///< m, in map
@@ -67,7 +91,9 @@ struct Guide::Parts {
 
   GuideConfig::Values config;
   navvi_types::StallGuard stall;
+  std::optional<Wire> wire;
   senses::Senses senses;
+  senses::Foresight foresight;
   drive::Drive drive;
   drive::Assistance assistance;
   drive::Buttons buttons;

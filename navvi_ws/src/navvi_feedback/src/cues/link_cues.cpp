@@ -18,6 +18,7 @@ CueKind lost_stick(const Observation& now) {
 }
 
 CueKind lost_robot(const Observation& now) {
+  if (now.cut_off) return CueKind::connection_lost;
   return now.simulated ? CueKind::simulator_lost : CueKind::odometry_lost;
 }
 
@@ -48,6 +49,8 @@ Utterances LinkCues::update(const Observation& now) {
   if (lost(&Links::pad) && lost_stick(now) != CueKind::pad_too_late) say(lost_stick(now));
   if (back(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
   if (lost(&Links::simulator)) say(lost_robot(now));
+  if (lost(&Links::simulator)) cut_off_ = now.cut_off;
+  if (back(&Links::simulator) && cut_off_) say(CueKind::connection_back);
   if (back(&Links::audio)) say(CueKind::audio_back);
   const bool simulated = links_.simulator != Link::lost;
   if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);

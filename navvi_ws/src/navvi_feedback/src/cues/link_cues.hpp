@@ -9,7 +9,7 @@ namespace navvi_feedback::cues {
 
 /// The words for a stick that is lost, or whose messages come too late.
 [[nodiscard]] CueKind lost_stick(const Observation& now);
-/// The words for a robot that is silent: of the simulator, or its odometry.
+/// The words for a robot that is silent: of the connection, the simulator, or its odometry.
 [[nodiscard]] CueKind lost_robot(const Observation& now);
 
 /// Tells which link is lost, and which is back. A loss that follows from that of the simulator or
@@ -32,6 +32,7 @@ class LinkCues {
  private:
   double patience_;
   std::optional<double> first_;  ///< s, of the first tick
+  bool cut_off_ = false;         ///< as the robot was last lost
   double sensed_ = 0.0;          ///< s, when proximity was last not lost
   Links links_;                  ///< now
   Links last_;                   ///< a tick before

@@ -2,8 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace navvi_feedback::drive {
+
+double fastest(double round_trip) {
+  constexpr double kSeen = 1.0;      // m
+  constexpr double kReaction = 0.6;  // s
+  constexpr double kBrakes = 2.5;    // m/s^2
+  if (round_trip <= 0.0) return std::numeric_limits<double>::infinity();
+  // v * delay + v^2 / (2 brakes) = seen
+  const double delay = round_trip + kReaction;
+  return kBrakes * (std::sqrt(delay * delay + 2.0 * kSeen / kBrakes) - delay);
+}
 
 void AssistanceConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;

@@ -19,6 +19,10 @@ struct AssistanceConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
+/// m/s, at which the robot stops within what is felt near by: the round trip and a person's reaction
+/// pass before the wheels brake. No limit without a delay. \param round_trip  s
+[[nodiscard]] double fastest(double round_trip);
+
 /// Slows the person's command before what stands or moves in the lane that the robot drives along.
 /// It never steers: the turning speed is the person's, and away from things nothing is changed.
 class Assistance {

@@ -1,5 +1,8 @@
 #include "node/outlets.hpp"
 
+#include <geometry_msgs/TwistStamped.h>
+
+#include <algorithm>
 #include <navvi_types/msg_conversion.hpp>
 
 #include "navvi_feedback/node/msg_conversion.hpp"
@@ -18,7 +21,7 @@ std::int64_t stamp() { return navvi_types::to_ns(ros::Time::now()); }
 
 Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands)
     : motors_driver_(config.motors) {
-  cmd_vel_ = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  commands_ = node.advertise<geometry_msgs::TwistStamped>("navvi/command", 1);
   motors_ = node.advertise<sensor_msgs::JoyFeedbackArray>("joy/set_feedback", 10);
   cues_ = node.advertise<navvi_msgs::Cue>("navvi/cues", 100);
   goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
@@ -32,10 +35,15 @@ Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands
   if (own_hands) joy_ = node.advertise<sensor_msgs::Joy>("joy", 1);
 }
 
-void Outlets::stop_wheels() { cmd_vel_.publish(geometry_msgs::Twist()); }
+void Outlets::command(const Velocity& velocity, double lag) {
+  geometry_msgs::TwistStamped command;
+  command.header.stamp = ros::Time(std::max(0.0, ros::Time::now().toSec() - lag));
+  command.twist = to_msg(velocity);
+  commands_.publish(command);
+}
 
 void Outlets::send(const core::Output& told) {
-  if (told.command) cmd_vel_.publish(to_msg(*told.command));
+  if (told.command) command(*told.command, told.lag);
   if (told.goal) goals_.publish(navvi_types::goal_msg(*told.goal, stamp()));
   if (told.request) requests_.publish(to_msg(navvi_types::TrialRequest{*told.request, stamp()}));
   if (told.rumble_due) motors_.publish(feedback_msg(told.rumble, motors_driver_));

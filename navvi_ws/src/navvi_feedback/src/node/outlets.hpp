@@ -23,7 +23,7 @@ class Outlets {
   /// is never answered with one of ours
   Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands);
 
-  void stop_wheels();
+  void stop_wheels() { command({}, 0.0); }
   /// All but the words.
   void send(const core::Output& told);
   void send(std::vector<CueEvent> events);
@@ -43,7 +43,10 @@ class Outlets {
 
  private:
   std::string motors_driver_;
-  ros::Publisher cmd_vel_, joy_, motors_, goals_, requests_, cues_, orders_,
+  /// \param lag  s, as Output::lag
+  void command(const Velocity& velocity, double lag);
+
+  ros::Publisher commands_, joy_, motors_, goals_, requests_, cues_, orders_,
       markers_, diagnostics_;
   std::optional<double> markers_time_;  ///< s
   CueEvent order_{0, CueStage::ended};  ///< last published

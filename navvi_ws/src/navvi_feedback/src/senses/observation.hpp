@@ -49,6 +49,8 @@ struct Observation {
 
   // The robot
   Links links;
+  LinkState connection;                   ///< as the robot's side measures it
+  bool cut_off = false;                   ///< all that comes by it is silent
   bool simulated = false;                 ///< there is a simulator, whose world is known
   bool robotless = false;                 ///< a lesson that wants no robot: none of it is missed
   Velocity commanded;                     ///< what was last sent to it
@@ -60,7 +62,7 @@ struct Observation {
 
   // The way
   std::optional<Guidance> guidance;         ///< the latest, however old
-  double turned = 0.0;                      ///< rad, counter-clockwise, since that came
+  double turned = 0.0;                      ///< rad, counter-clockwise, beyond what it is for
   std::optional<double> goal_angle;         ///< rad, clockwise from the nose, if it is known
   double goal_straight = 0.0;               ///< m, as the crow flies, where that is known
   std::optional<navvi_types::Place> place;  ///< the smallest that the robot is in

@@ -5,6 +5,9 @@
 namespace navvi_feedback::senses {
 namespace {
 
+constexpr double kSilent = 0.6;      // s; the connection's state comes twice a second
+constexpr double kSlow = 0.3;        // s, of a round trip, from which on people drive worse
+constexpr double kNotSlow = 0.25;    // s, from which on it is not slow any more
 constexpr double kRecordLost = 2.0;  // s; a slow disk holds trial_node up for less
 
 /// The smallest place that holds the point.
@@ -21,7 +24,8 @@ std::optional<navvi_types::Place> place_at(const navvi_types::Scenario& scenario
 
 void Senses::take(const Guidance& guidance, double time) {
   guidance_ = {guidance, time};
-  turned_ = 0.0;
+  // It is for the heading that the robot has after such a turn.
+  turned_ = motion_.value ? -motion_.value->angular * foresight() : 0.0;
 }
 
 void Senses::take(const DriveState& state, double /*time*/) {
@@ -47,11 +51,22 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   now.gate = gate_;
   if (now.links.proximity == Link::alive) now.nearby = *nearby_.value;
   now.contacts = std::exchange(contacts_, {});
+  if (connection_.value) {
+    now.connection = *connection_.value;
+    // A robot whose motion alone is silent still tells of the way.
+    const auto silent = [&](const auto& latest) {
+      return latest.link(time, kSilent) != Link::alive;
+    };
+    now.cut_off = silent(motion_) && silent(guidance_) && silent(connection_);
+    slow_ = now.connection.late != LinkState::Late::no ||
+            now.connection.round_trip > (slow_ ? kNotSlow : kSlow);
+  }
   now.guidance = guidance_.value;
   now.turned = turned_;
   if (devices.robot) locate(now);
   now.trial = trial_.state;
   now.notices = devices.states;
+  if (slow_) now.notices.push_back(CueKind::connection_slow);
   if (intruder_) now.notices.push_back(CueKind::intruder);
   if (record_lost(time)) now.notices.push_back(CueKind::record_lost);
   return now;

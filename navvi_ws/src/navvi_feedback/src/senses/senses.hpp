@@ -19,6 +19,8 @@ class Senses {
   void take(const DriveState& state, double /*time*/);
   /// A trial_node that repeats its state, and then is silent while a trial runs, records no more.
   void take(const TrialState& state, double time);
+  /// The last one holds, also where no other comes.
+  void take(const LinkState& link, double time) { connection_ = {link, time}; }
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
   void take(const Scenario& scenario, double /*time*/) { scenario_ = scenario; }
   void take(const Contact& contact, double /*time*/) { contacts_.push_back(contact); }
@@ -32,6 +34,10 @@ class Senses {
   [[nodiscard]] const std::optional<Guidance>& guidance() const { return guidance_.value; }
   [[nodiscard]] bool guidance_fresh(double time) const {
     return guidance_.link(time, stale_) == Link::alive;
+  }
+  /// s, by which guidance is ahead of the robot
+  [[nodiscard]] double foresight() const {
+    return connection_.value ? connection_.value->foresight : 0.0;
   }
   [[nodiscard]] const TrialState& trial() const { return trial_; }
 
@@ -56,6 +62,7 @@ class Senses {
   Latest<std::vector<NearThing>> nearby_;
   Latest<Guidance> guidance_;
   Latest<Velocity> motion_;
+  Latest<LinkState> connection_;
   double turned_ = 0.0;  ///< rad, counter-clockwise, since that guidance
   std::optional<DriveState::State> gate_;
   bool intruder_ = false;  ///< that gate ignores another node's commands
@@ -63,6 +70,7 @@ class Senses {
   std::optional<double> trial_time_;  ///< when it came
   bool trial_repeats_ = false;        ///< the same state has come again
   std::optional<Scenario> scenario_;
+  bool slow_ = false;              ///< the connection
   std::vector<Contact> contacts_;  ///< since the last observation
   bool seen_hands_ = false;        ///< there were live ones
 };

@@ -158,6 +158,14 @@ std::optional<plan::PlanRequest> Navigator::update(double time) {
   return carve ? std::optional(send(time, Guidance::Replan::none)) : std::nullopt;
 }
 
+Pose2 Navigator::foreseen() const {
+  Pose2 ahead = *observation_.foreseen();
+  const Eigen::Vector2d& now = observation_.last_pose()->position;
+  if (ahead.position != now && !space().segment_clear(to_point(now), to_point(ahead.position), 0.0))
+    ahead.position = now;
+  return ahead;
+}
+
 Conflict Navigator::forecast(const Path& path) const {
   return forecast_.forecast(path, observation_.obstacles(), observation_.pace());
 }
@@ -168,8 +176,9 @@ Conflict Navigator::follow_progress(double time) {
   blocker_.reset();
   const auto cut_off = std::exchange(cut_off_, std::nullopt);
   if (!robot || !path_.following()) return {};
-  path_.advance(*robot, space());
-  if (path_.follower().cut_off(*robot, *map_.floor)) cut_off_ = cut_off.value_or(time);
+  const Point ahead = to_point(foreseen().position);
+  path_.advance(ahead, space());
+  if (path_.follower().cut_off(ahead, *map_.floor)) cut_off_ = cut_off.value_or(time);
   end_retreat(time, *robot);
   end_path(time, *robot);
   give_up_late_plan(time);
@@ -411,7 +420,7 @@ void Navigator::report_path(Guidance& out) const {
     out.state = Guidance::State::no_route;
     return;
   }
-  path_.report(out, *robot, *map_.floor, observation_.pace());
+  path_.report(out, foreseen(), *map_.floor, observation_.pace());
   std::optional<Blocker> blocked = blocker_ ? blocker_ : keeper_.waits_for();
   if (path_.mode() == PathMode::waiting)
     blocked = Blocker{*deadlock_.yields_to(), 0.0, std::nullopt};

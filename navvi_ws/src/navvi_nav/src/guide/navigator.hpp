@@ -65,7 +65,9 @@ class Navigator {
     height_ = height;
     return true;
   }
-  void set_speed(double forward) { observation_.set_speed(forward); }  ///< m/s
+  void set_velocity(const navvi_types::Velocity& velocity) { observation_.set_velocity(velocity); }
+  /// \param ahead  s, by which guidance is ahead of the robot
+  void set_foresight(double ahead) { observation_.set_foresight(ahead); }
   /// \param place  m, in map, where the robot is by odometry, which may contradict an arrival;
   /// nullopt: unknown
   void set_odometry_place(const std::optional<Eigen::Vector2d>& place) { by_odometry_ = place; }
@@ -127,6 +129,8 @@ class Navigator {
     std::optional<double> carved;  ///< s, when the planner was last told what moves
   };
 
+  /// Where the robot will be when a person's answer comes; where it is if something stands between.
+  [[nodiscard]] Pose2 foreseen() const;
   [[nodiscard]] map::Space space() const { return {map_.floor.get(), &observation_.obstacles()}; }
   [[nodiscard]] bool map_stale(double time) const;
   [[nodiscard]] Conflict forecast(const Path& path) const;

@@ -1,6 +1,7 @@
 #include "guide/observation.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace navvi_nav::guide {
 namespace {
@@ -48,6 +49,15 @@ bool Observation::set_pose(const Pose2& pose, double stamp, double now) {
   return true;
 }
 
+std::optional<Pose2> Observation::foreseen() const {
+  if (!pose_ || foresight_ == 0.0) return pose_;
+  const double turn = velocity_.angular * foresight_;
+  const double course = pose_->yaw + 0.5 * turn;
+  return Pose2{pose_->position +
+                   velocity_.linear * foresight_ * Eigen::Vector2d(std::cos(course), std::sin(course)),
+               pose_->yaw + turn};
+}
+
 void Observation::update(double time) {
   if (obstacles_time_ && !obstacles_fresh(time)) {
     things_.clear();
@@ -56,7 +66,7 @@ void Observation::update(double time) {
   }
   const double elapsed = updated_ ? std::clamp(time - *updated_, 0.0, 1.0) : 0.0;
   updated_ = time;
-  if (speed_ > kMoving) pace_ += (speed_ - pace_) * (1.0 - std::exp(-elapsed / kMemory));
+  if (speed() > kMoving) pace_ += (speed() - pace_) * (1.0 - std::exp(-elapsed / kMemory));
 }
 
 void Observation::reset_times() {

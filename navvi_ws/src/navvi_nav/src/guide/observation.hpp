@@ -27,7 +27,9 @@ class Observation {
   /// \return false for a pose from the future, which is not taken: by a clock that is ahead it
   /// looks fresh for as long as that clock is ahead
   bool set_pose(const Pose2& pose, double stamp, double now);
-  void set_speed(double forward) { speed_ = forward; }  ///< m/s
+  void set_velocity(const navvi_types::Velocity& velocity) { velocity_ = velocity; }
+  /// \param ahead  s, by which guidance is ahead of the robot
+  void set_foresight(double ahead) { foresight_ = ahead; }
   /// Drops obstacles that are too old, and measures the pace.
   void update(double time);
   void reset_times();
@@ -35,7 +37,10 @@ class Observation {
   /// Where the robot is; nullopt without a fresh pose.
   [[nodiscard]] std::optional<Pose2> pose(double time) const;
   [[nodiscard]] const std::optional<Pose2>& last_pose() const { return pose_; }
-  [[nodiscard]] double speed() const { return speed_; }  ///< m/s, forward
+  /// Where the robot will be, at its present velocity, when a person's answer to what they are
+  /// told now arrives; where it was last, without foresight.
+  [[nodiscard]] std::optional<Pose2> foreseen() const;
+  [[nodiscard]] double speed() const { return velocity_.linear; }  ///< m/s, forward
   /// m/s, > 0: mean forward speed over the times when the robot moved.
   [[nodiscard]] double pace() const { return pace_; }
   [[nodiscard]] const std::vector<Cylinder>& obstacles() const { return obstacles_; }
@@ -62,7 +67,8 @@ class Observation {
   bool obstacles_rejected_ = false;
   std::optional<Pose2> pose_;
   double pose_time_ = 0.0;
-  double speed_ = 0.0;
+  navvi_types::Velocity velocity_;
+  double foresight_ = 0.0;  ///< s
   double pace_ = 0.7;  ///< before the robot moved
   std::optional<double> updated_;
 };

@@ -51,7 +51,13 @@ void Navigation::set_pose(const navvi_types::Pose2& pose, double height, double 
   parts_->navigator.set_pose(pose, height, time, time);
 }
 
-void Navigation::set_speed(double forward) { parts_->navigator.set_speed(forward); }
+void Navigation::set_velocity(const navvi_types::Velocity& velocity) {
+  parts_->navigator.set_velocity(velocity);
+}
+
+void Navigation::set_foresight(double ahead) {
+  parts_->navigator.set_foresight(ahead);
+}
 
 void Navigation::set_goal(const Eigen::Vector2d& goal) { parts_->navigator.set_goal(goal); }
 

@@ -93,6 +93,11 @@ class NavNode {
             config.map_frame, [this](const std::string&) { navigator_.reject_obstacles(); }),
         navvi_types::subscribe<nav_msgs::Odometry>(
             node, "odom", 1, checked, [this](const nav_msgs::Odometry& msg) { on_odometry(msg); }),
+        navvi_types::subscribe<navvi_msgs::LinkState>(
+            node, "navvi/link", 1, navvi_types::from_msg,
+            [this](const navvi_types::LinkState& link) {
+              navigator_.set_foresight(link.foresight);
+            }),
         node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
     make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
     timer_ = node.createWallTimer(ros::WallDuration(kBeat),
@@ -206,7 +211,7 @@ class NavNode {
 
   void on_odometry(const nav_msgs::Odometry& msg) {
     const navvi_types::Odometry odometry = *navvi_types::from_msg(msg);
-    navigator_.set_speed(odometry.velocity.linear);
+    navigator_.set_velocity(odometry.velocity);
     navigator_.set_odometry_place(in_map_frame(odometry.pose.position, msg.header));
   }
 

@@ -17,6 +17,7 @@ namespace {
 constexpr double kNavigationRate = 20.0;  // Hz, of nav_node's timer and of the obstacles
 constexpr double kFeedbackRate = 50.0;    // Hz, of feedback_node's and operator_node's
 constexpr double kMapBy = 30.0;  // s; a robot's own sensors have shown some floor long before
+constexpr double kLinkRate = 2.0;          // Hz, of what the gate reports of the connection
 constexpr double kGoalAt = 1.0;  // s; trial_node sets the goal when every part is there
 
 /// With the height that the path leads under, as perception_node takes it.
@@ -106,10 +107,16 @@ void ClosedLoop::sense() {
   published_.odometry = navvi_types::to_msg(session_.world().odometry());
   if (const auto odometry = node::from_msg(published_.odometry)) {
     guided_.take(*odometry, time());
-    navigation_.set_speed(odometry->velocity.linear);
+    navigation_.set_velocity(odometry->velocity);
   }
   published_.drive = navvi_types::to_msg(gate_.drive_state(now.stamp()));
   if (const auto gate = node::from_msg(published_.drive)) guided_.take(*gate, time());
+  if (session_.due(kLinkRate)) {
+    const navvi_types::LinkState link = gate_.link_state(now.stamp());
+    navigation_.set_foresight(link.foresight);
+    guided_.take(link, time());
+    published_.link = navvi_types::to_msg(link);
+  }
   for (const navvi_types::Contact& contact : now.contacts) {
     published_.contacts.push_back(navvi_types::to_msg(contact));
     const auto felt = node::from_msg(published_.contacts.back());
@@ -179,7 +186,9 @@ void ClosedLoop::navigate() {
 void ClosedLoop::feed_back() {
   const geometry_msgs::Transform at = pose();
   const auto command = guided_.feed_back(hand_, at, time());
-  if (command) gate_.receive(node::from_msg(node::to_msg(*command)), instant());
+  if (command)
+    gate_.receive({node::from_msg(node::to_msg(command->velocity)), command->lag, ++commands_},
+                  instant());
   published_.cues = guided_.played().cues;
   published_.motors = guided_.played().motors;
 }

@@ -28,7 +28,7 @@ GuidedPerson::GuidedPerson(const navvi_feedback::core::GuideConfig& guide,
       speech_(speech),
       heard_(speech || guide.has_sounds()) {}
 
-std::optional<navvi_types::Velocity> GuidedPerson::feed_back(const people::StickAndButtons& hand,
+std::optional<GuidedPerson::Command> GuidedPerson::feed_back(const people::StickAndButtons& hand,
                                                              const geometry_msgs::Transform& robot,
                                                              double time) {
   const ros::Time stamp(time);
@@ -58,7 +58,8 @@ std::optional<navvi_types::Velocity> GuidedPerson::feed_back(const people::Stick
     event.stamp = navvi_types::to_ns(stamp);
     played_.cues.push_back(node::to_msg(event));
   }
-  return told->command;
+  if (!told->command) return std::nullopt;
+  return Command{*told->command, told->lag};
 }
 
 people::StickAndButtons GuidedPerson::act(double time, double dt) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "navvi_config/field.hpp"
+#include "navvi_safety/link_meter.hpp"
 
 namespace navvi_safety {
 
@@ -23,6 +24,9 @@ struct CommandGateConfig {
   static constexpr double kNeutralHold = 0.30;
   static constexpr double kNeutralLinear = 0.02;   ///< m/s, a slower command counts as neutral
   static constexpr double kNeutralAngular = 0.02;  ///< rad/s, a slower command counts as neutral
+  static constexpr double kAhead = 0.3;      ///< s, a stamp farther ahead is rejected
+  static constexpr double kLateShare = 0.4;  ///< of a command that comes late
+  bool foresight = true;
   double max_linear = 1.5;
   double max_angular = 2.5;
   /// commands beyond this many times a limit are rejected
@@ -30,6 +34,13 @@ struct CommandGateConfig {
   std::string driver;  ///< the node that may drive; empty: any, one at a time
 
   void describe(navvi_config::Visitor& visit);
+};
+
+/// A command as it came.
+struct Command {
+  std::optional<navvi_types::Velocity> velocity;  ///< nullopt: malformed
+  double age = 0.0;       ///< s, from its stamp to its arrival, by the robot's clock
+  std::uint32_t seq = 0;  ///< higher for a later one
 };
 
 /// Stops the wheels when no valid command came for `timeout`, when commands come by another link
@@ -48,10 +59,11 @@ class CommandGate {
   /// two links of one name send commands they stand still, and the name is an intruder's, too.
   [[nodiscard]] bool admit(const std::string& node, unsigned link, const Instant& now);
 
-  /// Takes a command as received. \param command  nullopt for a malformed message. A command that
-  /// is not finite or `absurd_factor` beyond the limits is rejected whole and extends nothing; one
-  /// beyond the limits is clamped. A command later than `timeout` finds the wheels stopped.
-  void receive(const std::optional<navvi_types::Velocity>& command, const Instant& now);
+  /// Takes a command as received. One that is malformed, not finite, `absurd_factor` beyond the
+  /// limits or stamped `ahead` is rejected whole and extends nothing, as does one that comes too
+  /// late; one that comes late is slowed, one beyond the limits is clamped. A command later than
+  /// `timeout` finds the wheels stopped.
+  void receive(const Command& command, const Instant& now);
 
   /// Stops the wheels, for a reason beside the commands. They stand for as long as this is called
   /// before each update, and until the command was neutral after that.
@@ -64,6 +76,9 @@ class CommandGate {
   [[nodiscard]] navvi_types::DriveState drive_state(std::int64_t stamp) const {
     return {state_, reason_, rejected_, stamp, intruder_};
   }
+  /// As of the last command. \param stamp  ns, of the value
+  [[nodiscard]] navvi_types::LinkState link_state(std::int64_t stamp) const;
+  [[nodiscard]] LinkMeter::Late late() const { return link_meter_.late(); }
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] Reason reason() const { return reason_; }
   [[nodiscard]] unsigned rejected() const { return rejected_; }
@@ -74,6 +89,7 @@ class CommandGate {
   void expire(const Instant& now);
 
   CommandGateConfig config_;
+  LinkMeter link_meter_;
   navvi_types::Velocity command_;
   std::optional<Instant> last_valid_;
   std::optional<Instant> neutral_since_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <ros/message_event.h>
 
 #include <boost/weak_ptr.hpp>
@@ -18,10 +18,11 @@ constexpr int kCommandQueue = 100;
 /// Passes commands on to the gate if their publisher may drive; warns of what is rejected.
 class CommandInput {
  public:
-  /// \param gate  outlives this
-  explicit CommandInput(CommandGate& gate) : gate_(gate) {}
+  /// \param gate  outlives this \param rate  s of ROS time in one s
+  explicit CommandInput(CommandGate& gate, double rate = 1.0) : gate_(gate), rate_(rate) {}
 
-  void receive(const ros::MessageEvent<const geometry_msgs::Twist>& event, const Instant& now);
+  void receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& event,
+               const Instant& now);
 
  private:
   using Header = boost::shared_ptr<ros::M_string>;
@@ -31,6 +32,7 @@ class CommandInput {
   [[nodiscard]] unsigned link_of(const Header& header);
 
   CommandGate& gate_;
+  double rate_;
   std::vector<std::pair<boost::weak_ptr<ros::M_string>, unsigned>> links_;  ///< that still live
   unsigned last_link_ = 0;
 };

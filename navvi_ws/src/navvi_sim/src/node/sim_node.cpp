@@ -1,4 +1,4 @@
-// The simulator: a world that lives in step with the wall clock, driven by cmd_vel.
+// The simulator: a world that lives in step with the wall clock, driven by navvi/command.
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -9,6 +9,7 @@
 #include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
+#include <navvi_safety/link_outlet.hpp>
 
 #include "live/pacer.hpp"
 #include "navvi_sim/live/session.hpp"
@@ -35,7 +36,7 @@ class SimNode {
  private:
   void log_world(const std::vector<std::string>& notes,
                  const scenario::StartAndGoal& scenario) const;
-  void receive(const ros::MessageEvent<const geometry_msgs::Twist>& command);
+  void receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& command);
   void hear_clock(const ros::MessageEvent<const rosgraph_msgs::Clock>& clock);
   void tick(const ros::WallTimerEvent& event);
   [[nodiscard]] bool step();
@@ -57,7 +58,8 @@ class SimNode {
   std::optional<WorldOutlets> outlets_;
   std::optional<RobotSensors> robot_sensors_;
   navvi_safety::CommandGate gate_;
-  navvi_safety::CommandInput input_{gate_};
+  navvi_safety::CommandInput input_{gate_, config_.rate};
+  navvi_safety::LinkOutlet link_{node_};
   live::Pacer pacer_;
   int exit_code_ = 0;
   ros::Subscriber commands_, clocks_;
@@ -85,7 +87,7 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
 
   ros::NodeHandle commands_node;
   commands_node.setCallbackQueue(&commands_queue_);
-  commands_ = commands_node.subscribe("cmd_vel", navvi_safety::kCommandQueue, &SimNode::receive,
+  commands_ = commands_node.subscribe("navvi/command", navvi_safety::kCommandQueue, &SimNode::receive,
                                       this, ros::TransportHints().tcpNoDelay());
   clocks_ = commands_node.subscribe("clock", 100, &SimNode::hear_clock, this,
                                     ros::TransportHints().tcpNoDelay());
@@ -113,7 +115,7 @@ void SimNode::log_world(const std::vector<std::string>& notes,
            scenario.start.position.y(), scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
 }
 
-void SimNode::receive(const ros::MessageEvent<const geometry_msgs::Twist>& command) {
+void SimNode::receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& command) {
   input_.receive(command, instant());
 }
 
@@ -158,6 +160,7 @@ bool SimNode::step() {
   outlets_->publish_state();
   if (robot_sensors_) robot_sensors_->publish(*session_);
   outlets_->publish_drive_state(drive_state());
+  link_.publish(gate_, instant().wall, world().now().stamp());
   outlets_->publish_record();
   return true;
 }

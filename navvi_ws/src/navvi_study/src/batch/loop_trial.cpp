@@ -93,6 +93,7 @@ void LoopBag::watch(const std::vector<record::Row>& rows) {
   }
   for (const auto& contact : told.contacts) write("/navvi/contacts", contact);
   if (told.proximity) write("/navvi/proximity", *told.proximity);
+  if (told.link) write("/navvi/link", *told.link);
   if (told.obstacles) write("/navvi/obstacles", *told.obstacles);
   if (told.guidance) write("/navvi/guidance", *told.guidance);
   for (const auto& cue : told.cues) write("/navvi/cues", cue);
@@ -169,6 +170,7 @@ bool LoopTrial::watch() {
   observe_all(told.cues);
   if (told.guidance) observe_all<navvi_msgs::Guidance>({*told.guidance});
   observe_all<navvi_msgs::DriveState>({told.drive});
+  if (told.link) observe_all<navvi_msgs::LinkState>({*told.link});
   const auto& hashes = loop_.session().hashes();
   for (; hashes_ < hashes.size(); ++hashes_) observe(hashes[hashes_]);
   const trial::Ending over = ending();

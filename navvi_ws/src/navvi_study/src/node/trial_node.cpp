@@ -43,7 +43,8 @@ constexpr const char* kRecorded[] = {"/clock",
                                      "navvi/drive_state",
                                      "navvi/applied_commands",
                                      "navvi/state_hash",
-                                     "cmd_vel",
+                                     "navvi/command",
+                                     "navvi/link",
                                      "joy",
                                      "joy/set_feedback",
                                      "move_base_simple/goal",
@@ -188,6 +189,7 @@ class TrialNode {
     take<navvi_msgs::Proximity>("navvi/proximity");
     take<navvi_msgs::Cue>("navvi/cues");
     take<navvi_msgs::DriveState>("navvi/drive_state");
+    take<navvi_msgs::LinkState>("navvi/link");
     take<navvi_msgs::Guidance>("navvi/guidance");
     take<navvi_msgs::Scenario>("navvi/scenario");
     take<navvi_msgs::TrialRequest>("navvi/trial_request");

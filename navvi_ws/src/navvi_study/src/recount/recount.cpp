@@ -171,6 +171,7 @@ class Recount {
     with<navvi_msgs::Guidance>(item, "/navvi/guidance", observe_one);
     with<navvi_msgs::Cue>(item, "/navvi/cues", observe_one);
     with<navvi_msgs::DriveState>(item, "/navvi/drive_state", observe_one);
+    with<navvi_msgs::LinkState>(item, "/navvi/link", observe_one);
     with<navvi_msgs::StateHash>(item, "/navvi/state_hash", observe_one);
   }
 

@@ -82,6 +82,7 @@ void TrialMonitor::start(const TrialStart& start) {
   guided_.reroutes = 0;
   playing_.clear();
   latencies_.clear();
+  links_.clear();
   stuck_cues_.clear();
   goal_.taken = false;
   guided_.state.reset();
@@ -133,6 +134,20 @@ record::Fields TrialMonitor::end_fields() const {
   if (last) fields.set("yaw", last->pose.yaw);
   if (driven_.near)
     fields.set("left", beside(*driven_.near, 1.0)).set("right", beside(*driven_.near, -1.0));
+  std::vector<double> trips;
+  double longest = 0.0, loss = 0.0;
+  for (const LinkState& link : links_) {
+    if (end_ && link.stamp > *end_) continue;
+    trips.push_back(link.round_trip);
+    longest = std::max(longest, link.round_trip_99);
+    loss += link.loss;
+  }
+  if (!trips.empty()) {
+    std::sort(trips.begin(), trips.end());
+    fields.set("round_trip", trips[trips.size() / 2])
+        .set("round_trip_99", longest)
+        .set("link_loss", loss / static_cast<double>(trips.size()));
+  }
   for (auto report = latencies_.rbegin(); report != latencies_.rend(); ++report) {
     if (end_ && report->stamp > *end_) continue;
     for (const std::string& name : record::reported_columns())
@@ -424,6 +439,15 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
   fields.set("moved", moved() ? "yes" : "no");
   events.push_back({"SAFE_STOP", fields, drive.stamp, true});
   return events;
+}
+
+std::vector<Event> TrialMonitor::observe(const LinkState& link) {
+  const bool begins = link.late != LinkState::Late::no &&
+                      (links_.empty() || links_.back().late == LinkState::Late::no);
+  if (!counts(link.stamp)) return {};
+  links_.push_back(link);
+  if (!begins) return {};
+  return {{"LINK_LATE", place().set("late", to_string(link.late)), link.stamp}};
 }
 
 std::vector<Event> TrialMonitor::observe(const DeviceReport& device) {

@@ -6,6 +6,7 @@
 #include <navvi_people/people/listener.hpp>
 #include <navvi_types/cue_event.hpp>
 #include <navvi_types/drive_state.hpp>
+#include <navvi_types/link_state.hpp>
 #include <navvi_types/guidance.hpp>
 #include <navvi_types/scenario.hpp>
 #include <navvi_types/trial.hpp>
@@ -23,6 +24,7 @@ using navvi_types::Contact;
 using navvi_types::CueEvent;
 using navvi_types::CueKind;
 using navvi_types::DriveState;
+using navvi_types::LinkState;
 using navvi_types::Guidance;
 using navvi_types::NearThing;
 using navvi_types::Odometry;
@@ -129,6 +131,7 @@ class TrialMonitor {
   [[nodiscard]] std::vector<Event> observe(const Guidance& guidance);
   [[nodiscard]] std::vector<Event> observe(const CueEvent& cue);
   [[nodiscard]] std::vector<Event> observe(const DriveState& drive);
+  [[nodiscard]] std::vector<Event> observe(const LinkState& link);
   [[nodiscard]] std::vector<Event> observe(const DeviceReport& device);
   [[nodiscard]] std::vector<Event> observe(const StateHash& state);
 
@@ -221,6 +224,7 @@ class TrialMonitor {
   std::set<std::uint32_t> stuck_cues_;
   std::map<navvi_types::Modality, std::string>
       playing_;  ///< kind of the last cue that is no speech
+  std::vector<LinkState> links_;
   DriveState::Reason stopped_for_ =
       DriveState::Reason::none;  ///< by the last stage before the wheels
   std::string intruder_;         ///< that stage ignores this node

@@ -11,6 +11,7 @@
 #include <navvi_msgs/Cue.h>
 #include <navvi_msgs/DriveState.h>
 #include <navvi_msgs/Guidance.h>
+#include <navvi_msgs/LinkState.h>
 #include <navvi_msgs/Obstacles.h>
 #include <navvi_msgs/Proximity.h>
 #include <navvi_msgs/Scenario.h>
@@ -25,6 +26,7 @@
 #include "navvi_types/cue_event.hpp"
 #include "navvi_types/drive_state.hpp"
 #include "navvi_types/guidance.hpp"
+#include "navvi_types/link_state.hpp"
 #include "navvi_types/scenario.hpp"
 #include "navvi_types/trial.hpp"
 
@@ -53,6 +55,7 @@ namespace navvi_types {
 [[nodiscard]] std::optional<Guidance> from_msg(const navvi_msgs::Guidance& msg);
 [[nodiscard]] std::optional<CueEvent> from_msg(const navvi_msgs::Cue& msg);
 [[nodiscard]] std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg);
+[[nodiscard]] std::optional<LinkState> from_msg(const navvi_msgs::LinkState& msg);
 [[nodiscard]] std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg);
 /// nullopt if its hash is not 16 hexadecimal digits in lower case.
 [[nodiscard]] std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg);
@@ -70,6 +73,7 @@ namespace navvi_types {
 [[nodiscard]] navvi_msgs::Guidance to_msg(const Guidance& guidance);
 [[nodiscard]] navvi_msgs::Cue to_msg(const CueEvent& event);
 [[nodiscard]] navvi_msgs::DriveState to_msg(const DriveState& state);
+[[nodiscard]] navvi_msgs::LinkState to_msg(const LinkState& state);
 [[nodiscard]] navvi_msgs::Scenario to_msg(const Scenario& scenario);
 [[nodiscard]] navvi_msgs::StateHash to_msg(const StateHash& state);
 [[nodiscard]] navvi_msgs::TrialState to_msg(const TrialState& state);

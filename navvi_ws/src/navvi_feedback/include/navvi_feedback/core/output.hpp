@@ -18,6 +18,7 @@ namespace navvi_feedback::core {
 /// What goes to the wheels, to the person and to other nodes after one beat.
 struct Output {
   std::optional<navvi_types::Velocity> command;  ///< nullopt: nothing is sent
+  double lag = 0.0;    ///< s, of a simulated connection: the age of what the command answers
   double share = 1.0;  ///< [0, 1], of the person's speed that assistance lets through
 
   haptics::Rumble rumble;                     ///< of the motors, now

@@ -5,6 +5,7 @@
 #include <navvi_config/field.hpp>
 #include <navvi_files/cache.hpp>
 #include <navvi_types/guidance.hpp>
+#include <navvi_types/motion.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,7 +45,9 @@ class Navigation {
   /// \param height  m, z of base_link, which is on the floor. The map is taken only when it is
   ///                known: it tells which of the map's levels is the floor.
   void set_pose(const navvi_types::Pose2& pose, double height, double time);
-  void set_speed(double forward);  ///< m/s
+  void set_velocity(const navvi_types::Velocity& velocity);
+  /// \param ahead  s, by which guidance is ahead of the robot
+  void set_foresight(double ahead);
   /// A new goal replaces the old one. It is judged by the next plan.
   void set_goal(const Eigen::Vector2d& goal);
   [[nodiscard]] bool has_map() const;

@@ -6,6 +6,7 @@
 #include <navvi_msgs/Cue.h>
 #include <navvi_msgs/DriveState.h>
 #include <navvi_msgs/Guidance.h>
+#include <navvi_msgs/LinkState.h>
 #include <navvi_msgs/Obstacles.h>
 #include <navvi_msgs/Proximity.h>
 #include <octomap_msgs/Octomap.h>
@@ -44,7 +45,8 @@ struct ClosedLoopConfig {
 
 /// A whole session, without ROS and without a clock: world -> navigation -> cues -> operator ->
 /// stick -> wheels -> world. The parts are those that the nodes use, at the nodes' rates, and what
-/// they tell each other are the nodes' messages. What differs: no message is late or lost, a plan
+/// they tell each other are the nodes' messages. What differs: no message is late or lost but by
+/// feedback/link, a plan
 /// is there at the next beat of navigation (50 ms), and a sentence takes as long as it is written
 /// (the figures are in the .cpp). The same config gives the same session, bit for bit.
 class ClosedLoop {
@@ -55,6 +57,7 @@ class ClosedLoop {
   struct Messages {
     nav_msgs::Odometry odometry;
     navvi_msgs::DriveState drive;
+    std::optional<navvi_msgs::LinkState> link;
     std::vector<navvi_msgs::Contact> contacts;
     std::optional<navvi_msgs::Proximity> proximity;
     std::optional<navvi_msgs::Obstacles> obstacles;
@@ -131,6 +134,7 @@ class ClosedLoop {
   std::optional<people::SightedDriver> sighted_;  ///< at the stick in the person's place
   people::Sight sight_;                           ///< as it was told last
   people::StickAndButtons hand_;
+  std::uint32_t commands_ = 0;  ///< so far
   bool begun_ = false;
   Messages published_;
   std::optional<navvi_types::Obstacles> perceived_;

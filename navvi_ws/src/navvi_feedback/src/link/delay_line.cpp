@@ -1,0 +1,36 @@
+#include "link/delay_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace navvi_feedback::link {
+namespace {
+
+constexpr double kAgain = 0.2;   // s, after which a packet is sent again at the earliest (Linux)
+constexpr double kEvery = 60.0;  // s, from one outage to the next
+
+}  // namespace
+
+void LinkConfig::describe(navvi_config::Visitor& visit) {
+  using navvi_config::Range;
+  visit(delay, "delay", Range{0.0, 5.0}, "s",
+        "of a simulated connection between person and robot, one way");
+  visit(jitter, "jitter", Range{0.0, 1.0}, "s",
+        "mean of what comes on top of it, drawn for each message; none overtakes another");
+  visit(loss, "loss", Range{0.0, 0.2}, "",
+        "share of its packets, each of which holds up the stream until it is sent again");
+  visit(outage, "outage", Range{0.0, 30.0}, "s", "for which it is silent once a minute");
+}
+
+double Channel::arrival(double sent) {
+  if (outage_ == 0.0) outage_ = sent + random_.uniform(0.2, 1.0) * kEvery;
+  while (sent >= outage_ + config_.outage) outage_ += kEvery;
+  double at = config_.outage > 0.0 && sent >= outage_ ? outage_ + config_.outage : sent;
+  at += config_.delay;
+  if (config_.jitter > 0.0) at -= config_.jitter * std::log(1.0 - random_.uniform(0.0, 1.0));
+  if (config_.loss > 0.0 && random_.chance(config_.loss))
+    at += std::max(kAgain, 2.0 * config_.delay);
+  return last_ = std::max(last_, at);
+}
+
+}  // namespace navvi_feedback::link
