@@ -17,6 +17,8 @@ NUMBER = r"[0-9]+(\.[0-9]+)?", "numbers, 0 or more"
 COORDINATE = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"
 FORMS = {
     "limit": NUMBER, "rate": NUMBER, "skip": NUMBER, "pace": NUMBER, "port": (r"[0-9]{1,5}", "numbers of ports"),
+    "robot": (r"[A-Za-z0-9.-]{1,253}(:[0-9]{1,5})?", "hosts, such as 10.8.0.2 or 10.8.0.2:11312"),
+    "address": (r"([0-9]{1,3}\.){3}[0-9]{1,3}", "addresses of this machine, such as 10.8.0.2"),
     "seed": (r"[0-9]{1,18}", "whole numbers, 0 or more"),
     "start": (rf"(|{COORDINATE},{COORDINATE},{COORDINATE})", "values of the form x,y,yaw in m and rad"),
     "goal": (rf"(|{COORDINATE},{COORDINATE})", "values of the form x,y in m"),

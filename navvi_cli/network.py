@@ -1,4 +1,4 @@
-"""A master of its own for each session, on the loopback interface.
+"""A master of its own for each session, on the loopback interface or at an address of this machine; or that of a robot elsewhere.
 
 The lock of a port keeps a second session that starts now from it until this one's master listens there, and `watch` finds running
 sessions by it. It is one file for all users of the machine, locked through a descriptor that only reads: the file may be another
@@ -8,7 +8,9 @@ import atexit
 import fcntl
 import os
 import re
+import socket
 import subprocess
+import xmlrpc.client
 from pathlib import Path
 
 from .places import DEVEL
@@ -81,7 +83,7 @@ def remove(path, descriptor):
 class Network:
     """Holds a port as long as this process, and those that get `descriptor`, live."""
 
-    def __init__(self):
+    def __init__(self, address="127.0.0.1"):
         for self.port in PORTS:
             self.descriptor = claim(self.port)
             if self.descriptor is not None:
@@ -89,24 +91,55 @@ class Network:
         else:
             fail(f"no port from {PORTS[0]} to {PORTS[-1]} is free for a master; end sessions that are not needed, \"ss -ltnp\" lists them.")
         atexit.register(remove, lock_file(self.port), self.descriptor)
-        self.uri = f"http://127.0.0.1:{self.port}"
+        self.locks = [self.descriptor]
+        self.uri, self.address = f"http://{address}:{self.port}", address
         # ROS's own setup files set port 11311 of localhost where nothing is set.
         if GIVEN and not re.fullmatch(rf"http://(localhost:11311|(localhost|127\.0\.0\.1):{self.port})/?", GIVEN):
             aside(f"ROS_MASTER_URI={GIVEN} is not used: a session has a master of its own, here {self.uri}; \"roslaunch navvi live.launch\" "
                   "uses yours.")
-        os.environ.update(ROS_IP="127.0.0.1", ROS_MASTER_URI=self.uri)
+        self.enter()
+
+    def enter(self):
+        os.environ.update(ROS_IP=self.address, ROS_MASTER_URI=self.uri)
         os.environ.pop("ROS_HOSTNAME", None)
 
     @staticmethod
     def preload():
-        """Nodes would also open a port on every interface, which this library prevents; it also ends rosmaster, rosout and RViz with
-        roslaunch. Libraries that the user preloads stay."""
+        """Nodes would also open a port on every interface, which this library prevents: they listen at ROS_IP alone. It also ends
+        rosmaster, rosout and RViz with roslaunch. Libraries that the user preloads stay."""
         return ":".join(filter(None, [str(DEVEL / "lib" / "libnavvi_loopback.so"), os.environ.get("LD_PRELOAD")]))
 
     def second_terminal(self):
         setup = DEVEL / "setup.bash"
         near = os.path.relpath(setup) if Path.cwd() in setup.parents else setup
-        return f"{f'source {near}; ' if setup.exists() else ''}export ROS_MASTER_URI={self.uri} ROS_IP=127.0.0.1"
+        return f"{f'source {near}; ' if setup.exists() else ''}export ROS_MASTER_URI={self.uri} ROS_IP={self.address}"
+
+
+class FarNetwork(Network):
+    """The master of a robot's side on another machine, HOST or HOST:PORT, from the address of this machine that leads there."""
+    PATIENCE = 5.0  # s
+
+    def __init__(self, robot):
+        host, _, port = robot.partition(":")
+        self.port, self.locks = int(port or PORTS[0]), []
+        self.uri = f"http://{host}:{self.port}"
+        try:
+            with socket.create_connection((host, self.port), self.PATIENCE) as link:
+                self.address = link.getsockname()[0]
+            self.master = xmlrpc.client.ServerProxy(self.uri)
+            self.nodes = {node for names in self.master.getSystemState("/navvi")[2][1] for node in names[1]}
+        except (OSError, xmlrpc.client.Error, xmlrpc.client.expat.ExpatError) as problem:
+            fail(f"no ROS master answers at {host}, port {self.port}: {problem}; on the robot's machine, \"./navvi robot start address:=...\" "
+                 "starts one and prints where.", 2)
+        if not self.nodes & {"/relay_node", "/sim_node"}:
+            fail(f"the ROS master at {host}, port {self.port} knows no robot's side; \"./navvi robot start\" starts it there.", 2)
+        if taken := self.nodes & {"/feedback_node", "/trial_node"}:
+            fail(f"somebody drives this robot already: {' and '.join(sorted(taken))} run; one person at a time is allowed.", 2)
+        self.enter()
+
+    def has_own_clock(self):
+        """A simulator publishes /clock; a real robot's time comes by /navvi/clock."""
+        return self.master.getParam("/navvi", "/use_sim_time")[2] is True
 
 
 def is_ours(port):

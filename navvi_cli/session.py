@@ -145,7 +145,7 @@ class Launch:
         env = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1", PYTHONUNBUFFERED="1", LD_PRELOAD=network.preload())
         # Programs end with the roslaunch that has this number, however it ends (launcher.hpp). It holds the port's lock, too, and
         # those of whoever began this session and may be gone before it.
-        locks = [network.descriptor, *map(int, os.environ.get("NAVVI_LOCKS", "").split())]
+        locks = [*network.locks, *map(int, os.environ.get("NAVVI_LOCKS", "").split())]
         self.process = subprocess.Popen([*END_WITH_US, "sh", "-c", "export NAVVI_LAUNCHER=$$; exec \"$@\"", "sh", str(SHELL.with_name("roslaunch")),
                                          str(launch_file.path), *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=locks,
                                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

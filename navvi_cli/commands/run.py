@@ -15,15 +15,17 @@ import time
 from pathlib import Path
 
 from navvi_cli import trials, workspace
-from navvi_cli.arguments import LaunchFile, add_words, words_for
-from navvi_cli.network import Network
+from navvi_cli.arguments import LaunchFile, Words, add_words, words_for
+from navvi_cli.network import FarNetwork, Network
 from navvi_cli.places import TRIALS, config_of, program
 from navvi_cli.say import fail, say, tell
 from navvi_cli.session import Launch, accepted, check_operator, check_parameters, has_display, has_pad, prepare, resolve_rviz
 from navvi_cli.worlds import Verdict, check_name
 
 FEEDBACK = program("navvi_feedback", "feedback_node")
-PERSON = ["person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
+PERSON = ["robot:=HOST: drive a robot, or a simulator, on another machine, where \"./navvi robot start\" runs; world, seed and the rest of the "
+          "robot's side are given there.",
+          "person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
           "begins a new file.",
           "PART/NAME:=VALUE: any parameter of a node, such as feedback/speaker/rate:=300; \"./navvi parameters feedback\" lists them."]
 DRIVE = {
@@ -47,6 +49,8 @@ def run(args):
 
 
 def session(given):
+    if any(word.startswith("robot:=") for word in given):
+        return far_session(given)
     launch_file = LaunchFile("live.launch")
     words = words_for(launch_file, given)
     complete(words)
@@ -57,13 +61,36 @@ def session(given):
     network = Network()
     begin = time.time_ns()
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
-    announce(words, log, network)
+    announce(words, log, network, f"world {words['world']}, seed {words.get('seed', 1)}")
+    return drive(launch_file, words, log, network, begin)
+
+
+def drive(launch_file, words, log, network, begin):
     launch = Launch(launch_file, words, log, network)
     whole = launch.run() or launch.interrupted
     return report(words["out"], begin, log, launch.log.fatal) or int(not whole)
 
 
-def complete(words):
+def far_session(given):
+    """The person's side alone: the robot's is on another machine."""
+    where = Words([word for word in given if word.startswith("robot:=")], ["robot"])["robot"]
+    launch_file = LaunchFile("person.launch")
+    words = words_for(launch_file, [word for word in given if not word.startswith("robot:=")])
+    complete(words, ())
+    check(words)
+    prepare(words, ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])], [FEEDBACK], check_parameters)
+    network = FarNetwork(where)
+    words["robot_time"] = str(not network.has_own_clock()).lower()
+    begin = time.time_ns()
+    log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
+    announce(words, log, network, f"the robot at {where}")
+    return drive(launch_file, words, log, network, begin)
+
+
+HERE = {"sensing": "truth", "world": "warehouse"}
+
+
+def complete(words, here=HERE):
     """What an argument is if it is not given."""
     if words.setdefault("operator", "auto") == "auto":
         words["operator"] = "pad" if has_pad() else "keyboard" if has_display() else "simulated"
@@ -72,8 +99,7 @@ def complete(words):
         words.setdefault("once", "true")
         words.setdefault("limit", "600")
     resolve_rviz(words)
-    for name, value in {"speech": "auto", "profile": "default", "once": "false", "lesson": "none", "sensing": "truth", "world": "warehouse",
-                        "out": str(TRIALS)}.items():
+    for name, value in {"speech": "auto", "profile": "default", "once": "false", "lesson": "none", "out": str(TRIALS), **dict(here)}.items():
         words.setdefault(name, value)
 
 
@@ -95,7 +121,8 @@ def check(words):
         words["out"].mkdir(0o700, parents=True, exist_ok=True)
     except OSError as problem:
         fail(f"the folder {words['out']} cannot be made: {problem.strerror}; out:=FOLDER names another, such as out:=/tmp/trials.", 2)
-    check_name(words["world"])
+    if "world" in words:
+        check_name(words["world"])
     # Nodes run elsewhere: paths become absolute.
     for name in ("world", "classes"):
         if name in words and Path(words[name]).is_file():
@@ -120,13 +147,13 @@ def check_by_programs(words):
             words.parameters_of("nav"), words["profile"]).require()
 
 
-def announce(words, log, network):
+def announce(words, log, network, where):
     """Six lines: what begins, what to press, where the record goes, how to stop."""
     operator = words["operator"]
     own_buttons = any(word.startswith("feedback/buttons/") for word in words.parameters)
     drive = "listen; each step of the tutorial is spoken." if words["lesson"] == "tutorial" else DRIVE[operator]
     ask = "as your feedback/buttons say." if own_buttons and operator == "pad" else ASK[operator]
-    say(f"a session begins in some seconds: world {words['world']}, seed {words.get('seed', 1)}, profile {words['profile']}, operator {operator}.")
+    say(f"a session begins in some seconds: {where}, profile {words['profile']}, operator {operator}.")
     tell(f"To drive: {drive}\nTo hear more: {ask}\nThe record: a new folder in {words['out']}; the output of the programs: {log}\n"
          "To stop: Ctrl-C in this terminal.\n"
          f"In a second terminal: ./navvi watch prints it in lines; for ROS tools: {network.second_terminal()}")

@@ -1,17 +1,25 @@
-// Preloaded into every process of a session that must not be reached from outside: a socket that
-// would listen on all interfaces listens on the loopback interface alone. roscpp offers no setting
-// for its XML-RPC port. And each ends with roslaunch, ROS's own programs too.
+// Preloaded into every process of a session: a socket that would listen on all interfaces listens
+// at the address ROS_IP alone, such as that of a tunnel, or on the loopback interface. roscpp offers
+// no setting for its XML-RPC port. And each ends with roslaunch, ROS's own programs too.
 
+#include <arpa/inet.h>
 #include <dlfcn.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <navvi_config/launcher.hpp>
 
 namespace {
 
 [[gnu::constructor]] void begin() { navvi_config::end_with_launcher(); }
+
+in_addr own_address() {
+  in_addr address{htonl(INADDR_LOOPBACK)};
+  if (const char* const given = std::getenv("ROS_IP")) inet_pton(AF_INET, given, &address);
+  return address;
+}
 
 }  // namespace
 
@@ -21,7 +29,7 @@ extern "C" int bind(int socket, const sockaddr* address, socklen_t length) noexc
   if (address != nullptr && address->sa_family == AF_INET && length >= sizeof(sockaddr_in)) {
     sockaddr_in local;
     std::memcpy(&local, address, sizeof(local));
-    if (local.sin_addr.s_addr == htonl(INADDR_ANY)) local.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (local.sin_addr.s_addr == htonl(INADDR_ANY)) local.sin_addr = own_address();
     return next(socket, reinterpret_cast<const sockaddr*>(&local), sizeof(local));
   }
   if (address != nullptr && address->sa_family == AF_INET6 && length >= sizeof(sockaddr_in6)) {

@@ -2,6 +2,7 @@
 // stops.
 
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <std_msgs/Bool.h>
 
 #include <navvi_config/ros_parameters.hpp>
@@ -52,6 +53,8 @@ int main(int argc, char** argv) {
       published = now;
     };
     navvi_safety::LinkOutlet link(node);
+    // The time of a person's side on another machine, whose own clock says nothing of this one.
+    ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("navvi/clock", 1);
     publish_state();
 
     bool pressed = false;
@@ -59,6 +62,9 @@ int main(int argc, char** argv) {
       if (pressed) gate.stop(navvi_safety::CommandGate::Reason::emergency_stop);
       wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
       publish_state();
+      rosgraph_msgs::Clock now;
+      now.clock = ros::Time::now();
+      clock.publish(now);
       link.publish(gate, navvi_safety::now().wall, navvi_types::to_ns(ros::Time::now()));
     };
     // By wall clock, so that a stopped simulation clock cannot keep the wheels turning.

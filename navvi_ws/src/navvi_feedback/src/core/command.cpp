@@ -40,7 +40,8 @@ double Guide::Parts::assist(std::optional<Velocity>& command, const Observation&
   if (!command) return 1.0;
   double share = assistance.share(*command, now.nearby, now.links.proximity == Link::alive);
   const double speed = std::abs(command->linear);
-  if (const double most = drive::fastest(now.connection.foresight); speed > most)
+  if (const double most = drive::fastest(now.connection.foresight, *command, now.nearby);
+      speed > most)
     share = std::min(share, most / speed);
   if (now.devices.hands.late) {
     share = std::min(share, config.drive.assistance.least);

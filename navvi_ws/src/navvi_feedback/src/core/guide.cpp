@@ -121,7 +121,7 @@ Observation Guide::Parts::observe(const Devices& devices, double dt, double time
   Devices seen = devices;
   if (ahead > 0.0 && seen.robot) seen.robot = foresight.place(*seen.robot, ahead, time);
   Observation now = senses.observe(seen, dt, time);
-  if (ahead > 0.0) foresight.look_ahead(now, ahead, time);
+  if (ahead > 0.0) foresight.look_ahead(now, devices.robot, ahead, time);
   now.pressed = buttons.update(devices.hands);
   now.pressed.insert(now.pressed.end(), devices.asked.begin(), devices.asked.end());
   now.stick = drive.shaped(devices.hands.stick(config.drive.stick == "right"));

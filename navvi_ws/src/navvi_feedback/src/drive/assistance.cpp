@@ -5,15 +5,38 @@
 #include <limits>
 
 namespace navvi_feedback::drive {
+namespace {
 
-double fastest(double round_trip) {
-  constexpr double kSeen = 1.0;      // m
+constexpr double kSeen = 1.0;  // m, free, at which a delay alone limits the speed
+
+/// It is in the lane that the robot drives along.
+bool is_ahead(const navvi_types::NearThing& thing, const navvi_types::Velocity& wanted) {
+  constexpr double kHalfLane = 0.45;  // m
+  return thing.nearest.x() * wanted.linear > 0.0 && std::abs(thing.nearest.y()) <= kHalfLane;
+}
+
+}  // namespace
+
+
+double fastest(double round_trip, const navvi_types::Velocity& wanted,
+               const std::vector<navvi_types::NearThing>& nearby) {
   constexpr double kReaction = 0.6;  // s
   constexpr double kBrakes = 2.5;    // m/s^2
+  constexpr double kKeeps = 0.1;     // m
+  constexpr double kBeside = 0.1;    // share of the speed that is toward what is passed
+  constexpr double kCreep = 0.05;    // m/s, that is left to get away
   if (round_trip <= 0.0) return std::numeric_limits<double>::infinity();
-  // v * delay + v^2 / (2 brakes) = seen
+  // v * delay + v^2 / (2 brakes) = free
   const double delay = round_trip + kReaction;
-  return kBrakes * (std::sqrt(delay * delay + 2.0 * kSeen / kBrakes) - delay);
+  const auto toward_within = [&](double free) {
+    return kBrakes * (std::sqrt(delay * delay + 2.0 * std::max(0.0, free) / kBrakes) - delay);
+  };
+  double most = toward_within(kSeen);
+  for (const navvi_types::NearThing& thing : nearby) {
+    const double toward = std::copysign(1.0, wanted.linear) * thing.nearest.normalized().x();
+    if (toward > kBeside) most = std::min(most, toward_within(thing.gap - kKeeps) / toward);
+  }
+  return std::max(kCreep, most);
 }
 
 void AssistanceConfig::describe(navvi_config::Visitor& visit) {
@@ -31,9 +54,7 @@ double Assistance::share(const navvi_types::Velocity& wanted,
   if (!fresh) return config_.least;
   double allowed = speed;
   for (const navvi_types::NearThing& thing : nearby) {
-    const bool in_the_way =
-        thing.nearest.x() * wanted.linear > 0.0 && std::abs(thing.nearest.y()) <= config_.kHalfLane;
-    if (!in_the_way) continue;
+    if (!is_ahead(thing, wanted)) continue;
     const double room = std::max(0.0, thing.gap - config_.kMargin);
     allowed = std::min(allowed, std::sqrt(2.0 * config_.kDeceleration * room));
   }

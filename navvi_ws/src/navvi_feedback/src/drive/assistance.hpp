@@ -14,14 +14,15 @@ struct AssistanceConfig {
   /// m/s^2, the speed is kept to what this brings to rest before the thing
   static constexpr double kDeceleration = 0.8;
   static constexpr double kMargin = 0.15;    ///< m, gap at which it has come to rest
-  static constexpr double kHalfLane = 0.45;  ///< m, what is farther to the side is not in the way
 
   void describe(navvi_config::Visitor& visit);
 };
 
-/// m/s, at which the robot stops within what is felt near by: the round trip and a person's reaction
-/// pass before the wheels brake. No limit without a delay. \param round_trip  s
-[[nodiscard]] double fastest(double round_trip);
+/// m/s, at which the robot stops before what it drives towards: the round trip and a
+/// person's reaction pass before the wheels brake. No limit without a delay.
+/// \param round_trip  s \param wanted  forward or back \param nearby  in base_link
+[[nodiscard]] double fastest(double round_trip, const Velocity& wanted,
+                             const std::vector<NearThing>& nearby);
 
 /// Slows the person's command before what stands or moves in the lane that the robot drives along.
 /// It never steers: the turning speed is the person's, and away from things nothing is changed.

@@ -2,11 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_feedback::senses {
 namespace {
 
-constexpr double kLongest = 5.0;  // s, of a round trip
+constexpr double kLongest = 5.0;     // s, of a round trip
+constexpr double kSteerAhead = 3.0;  // m, at most to the point that is steered for, as in navigation
+constexpr double kAt = 0.5;          // m; the direction to what is nearer says nothing
+
+/// rad, clockwise, from the nose of a robot at `ahead` to a point that was seen from `robot`, both
+/// in map; past it, to where it lay.
+double angle_to(const Eigen::Vector2d& point, const navvi_types::Pose2& robot,
+                const navvi_types::Pose2& ahead) {
+  const Eigen::Vector2d before = point - robot.position, left = point - ahead.position;
+  const Eigen::Vector2d way = left.norm() > kAt && left.dot(before) > 0.0 ? left : before;
+  return navvi_types::wrap(ahead.yaw - std::atan2(way.y(), way.x()));
+}
 
 }  // namespace
 
@@ -49,14 +61,29 @@ navvi_types::Pose2 Foresight::place(const navvi_types::Pose2& robot, double over
   return {robot.to_parent(ahead.position), robot.yaw + ahead.yaw};
 }
 
-void Foresight::look_ahead(Observation& now, double over, double time) const {
+void Foresight::look_ahead(Observation& now, const std::optional<navvi_types::Pose2>& robot,
+                           double over, double time) const {
   const Velocity then = at(time - over), last = at(time);
   if (now.measured) {
     now.measured->linear += last.linear - then.linear;
     now.measured->angular += last.angular - then.angular;
   }
   const navvi_types::Pose2 ahead = moved(over, time);
-  now.turned += ahead.yaw;
+  if (now.guidance && now.guidance->leads() && robot) {
+    Guidance& way = *now.guidance;
+    const navvi_types::Pose2 then_at = place(*robot, over, time);
+    const double far = std::clamp(way.waypoint_distance, kAt, kSteerAhead);
+    const double course = robot->yaw - now.turned - way.steer_angle;
+    const Eigen::Vector2d steer_for =
+        robot->position + far * Eigen::Vector2d(std::cos(course), std::sin(course));
+    way.steer_angle = angle_to(steer_for, *robot, then_at);
+    way.waypoint_angle = angle_to(way.waypoint, *robot, then_at);
+    way.waypoint_distance = (way.waypoint - then_at.position).norm();
+    way.goal_distance = std::max(0.0, way.goal_distance - std::max(0.0, ahead.position.x()));
+    now.turned = 0.0;
+  } else {
+    now.turned += ahead.yaw;
+  }
   for (NearThing& thing : now.nearby) {
     const double before = thing.nearest.norm();
     thing.nearest = ahead.to_local(thing.nearest);

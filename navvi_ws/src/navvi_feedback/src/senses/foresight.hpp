@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <optional>
 #include <utility>
 
 #include "senses/observation.hpp"
@@ -17,8 +18,10 @@ class Foresight {
   /// The robot's place after that. \param over  s, the round trip
   [[nodiscard]] navvi_types::Pose2 place(const navvi_types::Pose2& robot, double over,
                                          double time) const;
-  /// What was seen of the robot and about it, likewise.
-  void look_ahead(Observation& now, double over, double time) const;
+  /// What was seen of the robot, of what is near it and of its way, likewise.
+  /// \param robot  as it was seen; nullopt: unknown
+  void look_ahead(Observation& now, const std::optional<navvi_types::Pose2>& robot, double over,
+                  double time) const;
 
  private:
   /// In base_link as it was last seen.

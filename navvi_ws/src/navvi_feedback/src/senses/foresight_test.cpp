@@ -75,14 +75,32 @@ TEST_F(FarRobot, has_the_speed_that_it_is_told_and_what_is_near_comes_nearer) {
   now.nearby.resize(1);
   now.nearby[0].nearest = {2.0, 0.3};
   now.nearby[0].gap = 1.6;
-  foresight_.look_ahead(now, kRoundTrip, time_);
+  foresight_.look_ahead(now, std::nullopt, kRoundTrip, time_);
   EXPECT_NEAR(now.measured->linear, 0.9, 1e-9);
   EXPECT_NEAR(now.nearby[0].nearest.x(), 2.0 - 0.9 * 0.3, 0.03);
   EXPECT_NEAR(now.nearby[0].gap, 1.6 - 0.9 * 0.3, 0.04);
   now.measured = Velocity{};
   drive(2.0, {0.9, 0.0});
-  foresight_.look_ahead(now, kRoundTrip, time_);
+  foresight_.look_ahead(now, std::nullopt, kRoundTrip, time_);
   EXPECT_NEAR(now.measured->linear, 0.0, 1e-9) << "it was told to drive long ago, and is held";
+}
+
+TEST_F(FarRobot, is_led_from_where_it_will_be) {
+  drive(2.0, {0.0, 0.0});
+  drive(0.4, {0.8, 0.0});
+  drive(0.1, {0.0, 1.0});
+  Observation now;
+  now.guidance = Guidance{};
+  now.guidance->state = Guidance::State::following;
+  now.guidance->waypoint = {4.0, 0.0};
+  now.guidance->waypoint_distance = 4.0;
+  now.guidance->goal_distance = 9.0;
+  foresight_.look_ahead(now, seen(), kRoundTrip, time_);
+  const navvi_types::Pose2 ahead = foreseen();
+  EXPECT_NEAR(now.guidance->waypoint_distance, 4.0 - 0.32, 0.03);
+  EXPECT_NEAR(now.guidance->waypoint_angle, ahead.yaw, 0.02) << "clockwise, of a left turn";
+  EXPECT_NEAR(now.guidance->steer_angle, ahead.yaw, 0.02);
+  EXPECT_NEAR(now.guidance->goal_distance, 9.0 - 0.32, 0.03);
 }
 
 }  // namespace

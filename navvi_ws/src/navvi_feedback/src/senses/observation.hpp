@@ -62,7 +62,7 @@ struct Observation {
 
   // The way
   std::optional<Guidance> guidance;         ///< the latest, however old
-  double turned = 0.0;                      ///< rad, counter-clockwise, beyond what it is for
+  double turned = 0.0;                      ///< rad, counter-clockwise, since that came
   std::optional<double> goal_angle;         ///< rad, clockwise from the nose, if it is known
   double goal_straight = 0.0;               ///< m, as the crow flies, where that is known
   std::optional<navvi_types::Place> place;  ///< the smallest that the robot is in

@@ -24,8 +24,7 @@ std::optional<navvi_types::Place> place_at(const navvi_types::Scenario& scenario
 
 void Senses::take(const Guidance& guidance, double time) {
   guidance_ = {guidance, time};
-  // It is for the heading that the robot has after such a turn.
-  turned_ = motion_.value ? -motion_.value->angular * foresight() : 0.0;
+  turned_ = 0.0;
 }
 
 void Senses::take(const DriveState& state, double /*time*/) {

@@ -420,7 +420,7 @@ void Navigator::report_path(Guidance& out) const {
     out.state = Guidance::State::no_route;
     return;
   }
-  path_.report(out, foreseen(), *map_.floor, observation_.pace());
+  path_.report(out, *robot, *map_.floor, observation_.pace());
   std::optional<Blocker> blocked = blocker_ ? blocker_ : keeper_.waits_for();
   if (path_.mode() == PathMode::waiting)
     blocked = Blocker{*deadlock_.yields_to(), 0.0, std::nullopt};
