@@ -64,10 +64,9 @@ navvi_types::Pose2 Foresight::place(const navvi_types::Pose2& robot, double over
 void Foresight::look_ahead(Observation& now, const std::optional<navvi_types::Pose2>& robot,
                            double over, double time) const {
   const Velocity then = at(time - over), last = at(time);
-  if (now.measured) {
-    now.measured->linear += last.linear - then.linear;
-    now.measured->angular += last.angular - then.angular;
-  }
+  now.last_measured.linear += last.linear - then.linear;
+  now.last_measured.angular += last.angular - then.angular;
+  if (now.measured) now.measured = now.last_measured;
   const navvi_types::Pose2 ahead = moved(over, time);
   if (now.guidance && now.guidance->leads() && robot) {
     Guidance& way = *now.guidance;
