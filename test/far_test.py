@@ -1,0 +1,149 @@
+"""A person here, a robot there, and between them a network that delays, cuts and loses packets (far.py). The robot is the simulator."""
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+
+import far
+
+ROOT = Path(__file__).resolve().parent.parent
+WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
+pytestmark = pytest.mark.skipif(not far.is_possible(), reason="network namespaces and TUN devices need the rights of root")
+
+# On the robot's machine: a line for each change of the wheels' state, and with each odometry the speed.
+OBSERVER = """
+import json, sys, time
+import rospy
+from nav_msgs.msg import Odometry
+from navvi_msgs.msg import DriveState, LinkState
+rospy.init_node("far_observer", anonymous=True, disable_rostime=True)
+def tell(**values):
+    sys.stdout.write(json.dumps(dict(values, at=time.monotonic())) + "\\n"); sys.stdout.flush()
+rospy.Subscriber("/navvi/drive_state", DriveState, lambda msg: tell(state=msg.state), tcp_nodelay=True)
+rospy.Subscriber("/odom", Odometry, lambda msg: tell(speed=msg.twist.twist.linear.x), tcp_nodelay=True)
+rospy.Subscriber("/navvi/link", LinkState, lambda msg: tell(round_trip=msg.round_trip, late=msg.late))
+rospy.spin()
+"""
+# On the person's machine: a stick that is pushed while the word on its input says so.
+STICK = """
+import sys, threading, time
+import rospy
+from sensor_msgs.msg import Joy
+rospy.init_node("stick", anonymous=True, disable_rostime=True)
+joy, push = rospy.Publisher("/joy", Joy, queue_size=1, tcp_nodelay=True), [0.0]
+def listen():
+    for line in sys.stdin: push[0] = float(line)
+threading.Thread(target=listen, daemon=True).start()
+while not rospy.is_shutdown():
+    joy.publish(Joy(axes=[0.0, push[0]], buttons=[0, 0]))
+    time.sleep(0.02)
+"""
+
+
+class Session:
+    def __init__(self, folder):
+        self.folder, self.wire, self.processes = folder, far.Wire(), []
+        self.env = dict(os.environ, HOME=str(folder), ROS_MASTER_URI=f"http://{far.ROBOT}:11311", ROS_LOG_DIR=str(folder))
+        self.robot = self.start(self.wire.robot, "./navvi", "robot", "start", f"address:={far.ROBOT}", f"world:={WORLD}", "seed:=3",
+                                output=folder / "robot.txt")
+        self.wait(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 120)
+
+    def start(self, side, *words, output=None, **more):
+        env = dict(self.env, ROS_IP=side.address)
+        to = open(output, "w") if output else more.pop("stdout", subprocess.DEVNULL)
+        process = subprocess.Popen([*side.enter, *words], env=env, cwd=ROOT, stdout=to, stderr=subprocess.STDOUT if output else None, **more)
+        self.processes.append(process)
+        return process
+
+    def asks(self, *words):
+        return subprocess.run([*self.wire.robot.enter, *words], env=dict(self.env, ROS_IP=far.ROBOT), capture_output=True).returncode == 0
+
+    @staticmethod
+    def wait(condition, seconds):
+        deadline = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < deadline, "it did not come in time"
+            time.sleep(0.05)
+
+    def drive(self, *words):
+        """The simulated person's session; what it prints."""
+        run = subprocess.run([*self.wire.person.enter, "./navvi", "run", f"robot:={far.ROBOT}", "operator:=simulated", "rviz:=false",
+                              "limit:=120", f"out:={self.folder}", *words], env=self.env, cwd=ROOT, capture_output=True, text=True, timeout=400)
+        return run.stdout + run.stderr
+
+    def close(self):
+        for process in reversed(self.processes):
+            process.send_signal(signal.SIGTERM)
+        for process in self.processes:
+            process.wait(60)
+        self.wire.close()
+
+
+@pytest.fixture
+def session(tmp_path):
+    session = Session(tmp_path)
+    yield session
+    session.close()
+
+
+def summary(folder):
+    trial = max(folder.glob("trial-*"))
+    lines = (trial / "summary.csv").read_text().splitlines()
+    return dict(zip(lines[0].split(","), lines[1].split(",")))
+
+
+@pytest.mark.parametrize("delay", [0.02, 0.25])
+def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(session, delay):
+    session.wire.delay = delay
+    said = session.drive()
+    assert "The goal was reached" in said, said
+    result = summary(session.folder)
+    assert 2 * delay <= float(result["round_trip"]) < 2 * delay + 0.3
+    journal = next(session.folder.glob("trial-*/journal.csv")).read_text()
+    assert ("kind=connection_slow" in journal) == (delay > 0.15)
+
+
+def test_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session):
+    wire, lines = session.wire, []
+    session.start(wire.person, "roslaunch", str(ROOT / "launch/person.launch"), "operator:=topic", "rviz:=false", "speech:=false",
+                  "press_to_start:=false", f"out:={session.folder}", "feedback_parameters:={listener: topic}")
+    observer = session.start(wire.robot, "/usr/bin/python3", "-c", OBSERVER, stdout=open(session.folder / "seen", "w"))
+    stick = session.start(wire.person, "/usr/bin/python3", "-c", STICK, stdin=subprocess.PIPE, text=True)
+
+    def push(value):
+        stick.stdin.write(f"{value}\n")
+        stick.stdin.flush()
+
+    def seen(name):
+        lines[:] = [json.loads(line) for line in (session.folder / "seen").read_text().splitlines() if line.endswith("}")]
+        return [(line["at"], line[name]) for line in lines if name in line]
+
+    assert observer.poll() is None
+    session.wait(lambda: seen("speed"), 60)
+    for delay, cut, forward in ((0.05, 0.6, 1.0), (0.2, 3.0, -1.0), (0.05, 8.0, 1.0)):
+        wire.delay = delay
+        push(0.0)
+        session.wait(lambda: seen("state")[-1][1] == 1, 60)  # running
+        push(forward)
+        session.wait(lambda: abs(seen("speed")[-1][1]) > 0.1, 20)
+        wire.cut, at = True, time.monotonic()
+        session.wait(lambda: seen("state")[-1][1] == 2, 2)
+        stopped = next(when for when, state in seen("state") if when > at and state == 2)
+        assert stopped - at < 0.25 + delay + 0.15, "the last stage before the wheels looks each 10 ms; this machine may be busy"
+        time.sleep(cut)
+        wire.cut = False
+        time.sleep(4.0)
+        still = [abs(speed) for when, speed in seen("speed") if when > stopped + 1.0]
+        assert max(still) < 0.02, "the stick is held since before the cut"
+        assert seen("round_trip")[-1][0] > stopped + cut, "the connection is back"
+
+
+def test_a_robot_that_is_not_there_ends_in_a_sentence():
+    run = subprocess.run(["./navvi", "run", "robot:=127.0.0.1:11399", "operator:=simulated", "rviz:=false"], cwd=ROOT, capture_output=True,
+                         text=True, timeout=600)
+    assert run.returncode == 2 and re.search("no ROS master answers at 127.0.0.1, port 11399", run.stderr), run.stderr
