@@ -37,7 +37,7 @@ class LaunchFile:
         self.path = LAUNCH / name
         root = ElementTree.parse(self.path).getroot()
         args = {arg.get("name"): arg for arg in root.findall("arg")}
-        docs = {arg.get("name"): arg.get("doc") for side in [*sides(root), root] for arg in side.findall("arg") if arg.get("doc")}
+        docs = {arg.get("name"): arg.get("doc") for side in [*reversed([*sides(root)]), root] for arg in side.findall("arg") if arg.get("doc")}
         self.arguments = {name: (arg.get("default", ""), " ".join(docs[name].split())) for name, arg in args.items()
                           if name in docs and not INTERNAL.fullmatch(name)}
         self.parts = sorted(name[:-len("_parameters")] for name in args if name.endswith("_parameters"))

@@ -185,7 +185,7 @@ def test_the_form_of_a_value_is_checked(word, good):
 def test_each_form_and_choice_is_of_an_argument_that_there_is():
     known = {name for path in (ROOT / "launch").glob("*.launch") for name in arguments.LaunchFile(path.name).arguments}
     assert set(arguments.CHOICES) <= known
-    assert set(arguments.FORMS) <= known | {"person", "pace", "port"}
+    assert set(arguments.FORMS) <= known | {"address", "pace", "person", "port", "robot"}
 
 
 # --- the lock of a port

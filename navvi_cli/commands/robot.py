@@ -1,4 +1,4 @@
-"""Start the robot's side on its own machine, or check what a robot provides.
+"""Start the robot's side for a person elsewhere, or check a robot.
 
 "./navvi robot start" runs sensors, navigation and the last stage before the
 wheels, with the arguments of robot_side.launch; with world:=NAME the simulator

@@ -23,8 +23,7 @@ from navvi_cli.session import Launch, accepted, check_operator, check_parameters
 from navvi_cli.worlds import Verdict, check_name
 
 FEEDBACK = program("navvi_feedback", "feedback_node")
-PERSON = ["robot:=HOST: drive a robot, or a simulator, on another machine, where \"./navvi robot start\" runs; world, seed and the rest of the "
-          "robot's side are given there.",
+PERSON = ["robot:=HOST: drive what \"./navvi robot start\" runs on another machine.",
           "person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
           "begins a new file.",
           "PART/NAME:=VALUE: any parameter of a node, such as feedback/speaker/rate:=300; \"./navvi parameters feedback\" lists them."]
