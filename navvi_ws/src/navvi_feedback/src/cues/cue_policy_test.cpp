@@ -199,5 +199,29 @@ TEST_F(CuePolicyTest, speaks_what_can_be_spoken_in_any_situation) {
   }
 }
 
+TEST_F(CuePolicyTest, orders_what_the_voice_says_and_nothing_that_it_drops_or_cuts) {
+  using Stage = navvi_types::CueStage;
+  const auto note = [&](Stage stage) {
+    policy_.note({{7, stage, CueKind::back_away, "back away, box ahead", Priority::message}});
+    return policy_.order().value().text;
+  };
+  under_way();
+  now_.nearby = {{ThingClass::box, 1, 0.15, {0.5, 0.0}, false}};
+  now_.measured->linear = 0.0;
+  ASSERT_EQ(pass(1.6), Texts{"back away, box ahead"});
+  now_.nearby.clear();
+  now_.measured->linear = 1.0;
+  note(Stage::queued);
+  EXPECT_EQ(note(Stage::dropped), "straight");
+  EXPECT_EQ(note(Stage::started), "back away, box ahead");
+  EXPECT_EQ(note(Stage::ended), "back away, box ahead");
+  pass(5.0);
+  EXPECT_EQ(note(Stage::started), "back away, box ahead") << "once more, after it had ended";
+  EXPECT_EQ(note(Stage::cut), "straight");
+  note(Stage::started);
+  policy_.note({{8, Stage::started, CueKind::straight, "go on", Priority::message}});
+  EXPECT_EQ(policy_.order().value().text, "straight") << "the voice says something else";
+}
+
 }  // namespace
 }  // namespace navvi_feedback::cues
