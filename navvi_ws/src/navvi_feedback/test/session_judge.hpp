@@ -304,10 +304,14 @@ class SessionJudge {
              kTick);
     }
     const bool simulated = now.velocity && last_.velocity;
-    alive_ = simulated && now.guided && now.stick && now.trial == TrialState::State::free
+    // A stick that comes and goes is lost until it is told to be back.
+    const bool off = decided_[CueKind::pad_lost] > decided_[CueKind::pad_back];
+    plugged_ = now.stick ? plugged_ + kTick : 0.0;
+    if (off && plugged_ > 5.0 + 2.0 * kTick) demand(CueKind::pad_back, kTick);
+    alive_ = simulated && now.guided && now.stick && !off && now.trial == TrialState::State::free
                  ? alive_ + kTick
                  : 0.0;
-    if (last_.stick && !now.stick) demand(CueKind::pad_lost, 2.0 + kTick);
+    if (last_.stick && !now.stick && !off) demand(CueKind::pad_lost, 2.0 + kTick);
     if (alive_ > 2.0 && last_.gate.state == DriveState::State::running &&
         now.gate.state == DriveState::State::stopped)
       demand(CueKind::robot_stopped, 2.0 + kTick);
@@ -352,6 +356,7 @@ class SessionJudge {
   std::map<std::uint32_t, double> hits_;  ///< s, by thing
   Scene last_;
   double alive_ = 0.0;    ///< s, since when all links have lived
+  double plugged_ = 0.0;  ///< s, since when the stick is connected
   double steady_ = 0.0;   ///< s, of the guidance's state
   double in_vain_ = 0.0;  ///< s
   double silent_ = 0.0;   ///< s, while led untold toward a goal that is not seen yet

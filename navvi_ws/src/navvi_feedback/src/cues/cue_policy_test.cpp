@@ -133,16 +133,16 @@ TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says
 TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
   under_way();
   const auto lose_and_find = [&] {
-    now_.links.proximity = Link::alive;
+    now_.links.simulator = Link::alive;
     pass(0.1);
-    now_.links.proximity = Link::lost;
+    now_.links.simulator = Link::lost;
     return pass(0.4);
   };
-  EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
+  EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
   const Cue lost = last_;
   EXPECT_EQ(lose_and_find(), Texts{});
   policy_.note({{1, CueStage::dropped, lost.kind, lost.text}});
-  EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
+  EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
 }
 
 TEST_F(CuePolicyTest, words_directions_by_left_and_right_where_that_is_wanted) {
