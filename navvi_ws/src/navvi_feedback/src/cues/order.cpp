@@ -36,8 +36,9 @@ bool replaces(Ask ask) { return ask != Ask::nothing && ask != Ask::beware && ask
 }  // namespace
 
 void Order::note(const CueEvent& event, double time) {
-  if (!event.kind()) return;
-  const navvi_types::CueTraits& kind = traits(*event.kind());
+  const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+  if (!spoken || !spoken->lesson.empty()) return;
+  const navvi_types::CueTraits& kind = traits(spoken->kind);
   if (event.stage == CueStage::started && kind.shown)
     event_ = Event{Utterance{kind.kind}, event.text, time, event.id};
   else if (event.stage == CueStage::started && replaces(kind.ask))
