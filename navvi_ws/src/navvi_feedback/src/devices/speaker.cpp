@@ -160,9 +160,10 @@ std::optional<Speaker::Job> Speaker::next() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kIdlePoll, [this] { return quit_ || request_; });
   if (quit_) return std::nullopt;
-  silent_ = {};  // nothing is heard
-  return Job{std::exchange(request_, std::nullopt), generation_, config_.rate,
-             std::exchange(begun_, {}), std::exchange(scan_, {})};
+  Job job{std::exchange(request_, std::nullopt), generation_, config_.rate,
+          std::exchange(begun_, {}), std::exchange(silent_, {}), std::exchange(scan_, {})};
+  if (!std::exchange(fades_, false)) job.silent = {};  // nothing was heard
+  return job;
 }
 
 bool Speaker::superseded(unsigned long generation) const {
@@ -175,6 +176,7 @@ void Speaker::play(const Sound& sound, Job& job) {
   const auto end = Clock::now() + seconds(sound.duration());
   bool audible = !sound.samples.empty() && mixer_.speak(sound, config_.volume);
   bool begun = !audible;
+  int first = 0;  // samples of the first mix
   while (true) {
     {
       std::unique_lock lock(mutex_);
@@ -182,10 +184,12 @@ void Speaker::play(const Sound& sound, Job& job) {
                             [&] { return job.generation != generation_; }))
         break;
     }
-    if (!begun && mixer_.mixed() > 0) {
+    if (!begun && (first = mixer_.mixed()) > 0) {
       begun = true;
       if (job.begun) std::exchange(job.begun, {})();
     }
+    // What was cut has faded out in the first mix.
+    if (job.silent && begun && mixer_.mixed() > first) std::exchange(job.silent, {})();
     if (audible && !mixer_.speaking()) {
       audible = false;
       mixer_.tend();
@@ -193,7 +197,7 @@ void Speaker::play(const Sound& sound, Job& job) {
     // What a device that was lost did not play passes in silence, so that the times stay true.
     if (!audible && Clock::now() >= end) break;
   }
-  if (audible && mixer_.speaking()) fall_silent();
+  if (audible && mixer_.speaking()) return fall_silent();
   mixer_.stop();
 }
 
@@ -203,11 +207,16 @@ void Speaker::fall_silent() {
   // The first mix from now on fades out, the next is silent.
   int mixes = 0;
   for (int seen = mixer_.mixed(); mixes < 2 && Clock::now() < end;) {
-    std::this_thread::sleep_for(kCloseLook);
+    {
+      std::unique_lock lock(mutex_);
+      fades_ = changed_.wait_for(lock, kCloseLook, [this] { return request_.has_value(); });
+    }
+    if (fades_) return;
     const int now = mixer_.mixed();
     if (now != seen) ++mixes;
     seen = now;
   }
+  mixer_.stop();
   std::function<void()> silent;
   {
     const std::lock_guard lock(mutex_);
