@@ -174,6 +174,7 @@ bool Speaker::superseded(unsigned long generation) const {
 void Speaker::play(const Sound& sound, Job& job) {
   mixer_.tend();
   const auto end = Clock::now() + seconds(sound.duration());
+  const bool faded = mixer_.mixed() != muted_at_;  // what was cut, in a mix since
   bool audible = !sound.samples.empty() && mixer_.speak(sound, config_.volume);
   bool begun = !audible;
   int first = 0;  // samples of the first mix
@@ -188,8 +189,7 @@ void Speaker::play(const Sound& sound, Job& job) {
       begun = true;
       if (job.begun) std::exchange(job.begun, {})();
     }
-    // What was cut has faded out in the first mix.
-    if (job.silent && begun && mixer_.mixed() > first) std::exchange(job.silent, {})();
+    if (job.silent && begun && (faded || mixer_.mixed() > first)) std::exchange(job.silent, {})();
     if (audible && !mixer_.speaking()) {
       audible = false;
       mixer_.tend();
@@ -202,6 +202,7 @@ void Speaker::play(const Sound& sound, Job& job) {
 }
 
 void Speaker::fall_silent() {
+  muted_at_ = mixer_.mixed();
   mixer_.mute();
   const auto end = Clock::now() + kFade;
   // The first mix from now on fades out, the next is silent.

@@ -95,7 +95,8 @@ class Speaker {
   unsigned long generation_ = 0;  ///< grows with every start and stop
   bool busy_ = false;
   bool quit_ = false;
-  bool fades_ = false;  ///< what was cut is not silent yet; of the thread alone
+  bool fades_ = false;  ///< what was cut is not silent yet; of the thread alone, as the next
+  int muted_at_ = 0;    ///< samples of it that had been mixed
   Status status_;
   std::thread thread_;
 };
