@@ -266,7 +266,9 @@ class SessionJudge {
     contradicts("a voice that said wait", std::exchange(waited_, waits) && waits);
     contradicts("a voice that says the way", says_way_ && family_of(kind) == cues::Family::halt);
     contradicts("a pad that says halt", drive && halt_begins);
-    contradicts("a voice that did not say it", order && traits(kind).shown && unsaid(*order));
+    // As long as it is held; it is said again and again.
+    const bool held = kind == CueKind::release_stick && now.forward > 0.0;
+    contradicts("a voice that did not say it", order && traits(kind).shown && !held && unsaid(*order));
     const bool ticks = std::any_of(out.plays.begin(), out.plays.end(), [](const auto& play) {
       return play.earcon == sounds::Earcon::turn || play.earcon == sounds::Earcon::turn_click;
     });

@@ -66,7 +66,7 @@ std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, d
   add(told, answer);
   add(told, led);
   std::vector<Cue> cues = say(told, tick);
-  order_.update(tick, state_, halt_, route_, leads_, cues);
+  order_.update(tick, state_, held_, halt_, route_, leads_, cues);
   return cues;
 }
 

@@ -126,8 +126,20 @@ TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says
   now_.stick_held_unarmed = true;
   const Texts held = pass(5.0);
   EXPECT_EQ(std::count(held.begin(), held.end(), "release the stick"), 2);
+  EXPECT_EQ(policy_.order().value().kind, CueKind::release_stick) << "as long as it is held";
   now_.stick_held_unarmed = false;
   EXPECT_EQ(pass(3.0), Texts{"drive straight, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, asks_only_a_hand_that_rests_to_push) {
+  const auto pushes = [&] {
+    const Texts told = pass(40.0);
+    return std::count(told.begin(), told.end(), "push the stick forward");
+  };
+  now_.stick_held_unarmed = true;
+  EXPECT_EQ(pushes(), 0);
+  now_.stick_held_unarmed = false;
+  EXPECT_GT(pushes(), 0);
 }
 
 TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {

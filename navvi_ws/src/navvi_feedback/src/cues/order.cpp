@@ -21,11 +21,12 @@ std::optional<Utterance> undriveable(const Tick& tick) {
 }
 
 /// As long as it is so.
-std::optional<Utterance> lasting(const Tick& tick, const StateCues& state, const Halt& halt,
-                                 const RouteCues& route, bool leads) {
+std::optional<Utterance> lasting(const Tick& tick, const StateCues& state, const HeldStick& held,
+                                 const Halt& halt, const RouteCues& route, bool leads) {
   const std::optional<CueKind> problem = state.problem();
   if (problem && problem != CueKind::blocked && problem != CueKind::welcome)
     return problem_words(*problem, tick.now);
+  if (held.needed()) return Utterance{*held.needed()};
   if (halt.halted()) return halt.words();
   return leads ? route.order(*tick.now.guidance) : std::nullopt;
 }
@@ -47,8 +48,9 @@ void Order::note(const CueEvent& event, double time) {
     event_.reset();
 }
 
-void Order::update(const Tick& tick, const StateCues& state, const Halt& halt,
-                   const RouteCues& route, bool leads, const std::vector<Cue>& told) {
+void Order::update(const Tick& tick, const StateCues& state, const HeldStick& held,
+                   const Halt& halt, const RouteCues& route, bool leads,
+                   const std::vector<Cue>& told) {
   for (const Cue& cue : told) {
     if (family_of(cue.kind) == Family::halt) event_.reset();
     if (traits(cue.kind).shown && cue.felt && !halt.halted())
@@ -56,7 +58,7 @@ void Order::update(const Tick& tick, const StateCues& state, const Halt& halt,
   }
   if (event_ && tick.time - event_->time >= kShown) event_.reset();
   undriveable_ = undriveable(tick);
-  lasting_ = lasting(tick, state, halt, route, leads);
+  lasting_ = lasting(tick, state, held, halt, route, leads);
   for (std::optional<Utterance>* const words : {&undriveable_, &lasting_})
     if (*words) (*words)->fillings.keys = tick.now.devices.keyboard;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cues/halt.hpp"
+#include "cues/held_stick.hpp"
 #include "cues/route_cues.hpp"
 #include "cues/state_cues.hpp"
 #include "cues/tick.hpp"
@@ -16,8 +17,8 @@ class Order {
  public:
   /// Call it once all else of the tick is decided.
   /// \param leads  the path is to be followed now \param told  the cues of the tick
-  void update(const Tick& tick, const StateCues& state, const Halt& halt, const RouteCues& route,
-              bool leads, const std::vector<Cue>& told);
+  void update(const Tick& tick, const StateCues& state, const HeldStick& held, const Halt& halt,
+              const RouteCues& route, bool leads, const std::vector<Cue>& told);
   /// The voice has begun, cut or dropped a cue: what it does not say is not shown, either.
   void note(const CueEvent& event, double time);
 
