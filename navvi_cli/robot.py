@@ -1,4 +1,5 @@
 """What comes of a robot's topics and transforms. Only `listen` needs ROS."""
+import ast
 import math
 import os
 import statistics
@@ -135,6 +136,15 @@ def flat(matrix, x, y):
     return matrix[0][0] * x + matrix[0][1] * y + matrix[0][3], matrix[1][0] * x + matrix[1][1] * y + matrix[1][3]
 
 
+def reach_of(footprint):
+    """m, from base_frame to the farthest corner; 0 for what is no polygon. A list, or a text that holds one, as costmap_2d takes it."""
+    try:
+        corners = ast.literal_eval(footprint) if isinstance(footprint, str) else footprint
+        return max(math.hypot(*corner) for corner in corners)
+    except (SyntaxError, TypeError, ValueError):
+        return 0.0
+
+
 class Robot:
     """What came of it, and `words`: robot.launch's arguments, with their defaults where they are not `given`."""
 
@@ -143,6 +153,7 @@ class Robot:
         self.topics, self.frames = {}, Frames()
         self.kinds, self.publishers, self.takers = {}, {}, {}  # by topic
         self.radii = {name: float(words.get(name, words["radius"])) for name in RADII}
+        self.reaches = {}  # m: of the polygons that a costmap has as footprint, by parameter
         self.has_pad = False
 
     def names(self, part):
@@ -201,4 +212,5 @@ def listen(robot, seconds):
     for name, parameter in RADII.items():
         if rospy.has_param(parameter):
             robot.radii[name] = float(rospy.get_param(parameter))
+    robot.reaches = {name: reach_of(rospy.get_param(name)) for name in rospy.get_param_names() if name.endswith("/footprint")}
     robot.has_pad = has_pad()

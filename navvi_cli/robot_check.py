@@ -149,6 +149,9 @@ def footprint(robot):
     found += f", the next at {gaps[own]:.2f} m" if own < len(gaps) else ""
     if seen != body:
         return Line("footprint", WRONG, f"{found}, but for paths {body:.2f} m", "give both by radius:=")
+    for name, reach in robot.reaches.items():
+        if reach > body:
+            return Line("footprint", WRONG, f"{found}, but the polygon of {name} reaches {reach:.2f} m", f"give radius:={math.ceil(100 * reach) / 100}")
     if own < len(gaps) and gaps[own] < seen + 0.1:
         return Line("footprint", LOOK, found, "if that is a part of the robot, give a larger radius:=")
     return Line("footprint", WELL, found)

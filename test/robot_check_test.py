@@ -129,6 +129,8 @@ def wrong_type(fake):
     (spoiled(scan=scan(lambda ray: 0.2 if ray < 5 else 3.0)), "footprint", "well", ""),
     (spoiled(scan=scan(lambda ray: 0.5 if 175 < ray < 185 else 3.0)), "footprint", "look", "larger radius"),
     (spoiled(radii={"perception/robot_radius": 0.2, "nav/mesh/robot_radius": 0.35}), "footprint", "wrong", "radius:="),
+    (spoiled(reaches={"/move_base/local_costmap/footprint": robot.reach_of("[[0.4, 0.3], [-0.4, 0.3], [-0.4, -0.3], [0.4, -0.3]]")}), "footprint", "wrong", "radius:=0.5"),
+    (spoiled(reaches={"/a/footprint": robot.reach_of([[0.1, 0.1], [-0.1, 0.0]]), "/b/footprint": robot.reach_of("round")}), "footprint", "well", ""),
     (spoiled(joy_age=0.6), "stick", "wrong", "the robot is slow"),
     (spoiled(joy_age=3.0), "stick", "wrong", "clocks"),
     (spoiled(takers={}), "wheels", "wrong", "wheels:="),

@@ -106,6 +106,7 @@ class SessionJudge {
     if (now.asked) input.asked = {*now.asked};
     const Beat out = beat(guide_, input, time);
     if (out.pattern) felt.insert(navvi_types::to_string(*out.pattern));
+    if (out.pattern) felt_[*out.pattern] = time;
     touched_ = out.pattern.has_value();
     for (const sounds::Play& play : out.plays) played.insert(navvi_types::to_string(play.earcon));
     if (out.voice.stop) speaks_until_ = time;
@@ -170,7 +171,31 @@ class SessionJudge {
           said != said_.end() && time - said->second < 10.0 - kTick)
         complaints.insert("the same again: " + event.word());
       said_[event.text] = time;
+      if (asks(*event.kind())) asked_for_ = *event.kind();
     }
+  }
+
+  /// Something is to be done now.
+  [[nodiscard]] static bool asks(CueKind kind) {
+    using navvi_types::Ask;
+    const Ask ask = traits(kind).ask;
+    return traits(kind).shown ||
+           (ask != Ask::nothing && ask != Ask::beware && ask != Ask::ready);
+  }
+
+  /// What is shown for some seconds is what the voice has begun, and nothing else since; or what
+  /// the motors have instead, unless they told of a hit.
+  [[nodiscard]] bool unsaid(const CueEvent& order) const {
+    const navvi_types::CueTraits& kind = traits(*order.kind());
+    const auto recent = [&](double at) { return time - at < 4.0 + 1.5 * kTick; };
+    const auto said = said_.find(order.text);
+    if (said != said_.end() && recent(said->second) && asked_for_ == kind.kind) return false;
+    return !kind.felt || std::none_of(felt_.begin(), felt_.end(), [&](const auto& felt) {
+      const auto& [pattern, at] = felt;
+      const bool hit =
+          pattern == haptics::Pattern::hit_shelf || pattern == haptics::Pattern::hit_obstacle;
+      return recent(at) && (hit || pattern == *kind.felt);
+    });
   }
 
   /// The rule that is taught: after "stop" or "wait" nothing but "go on", with the direction.
@@ -241,6 +266,9 @@ class SessionJudge {
     contradicts("a voice that said wait", std::exchange(waited_, waits) && waits);
     contradicts("a voice that says the way", says_way_ && family_of(kind) == cues::Family::halt);
     contradicts("a pad that says halt", drive && halt_begins);
+    // As long as it is held; it is said again and again.
+    const bool held = kind == CueKind::release_stick && now.forward > 0.0;
+    contradicts("a voice that did not say it", order && traits(kind).shown && !held && unsaid(*order));
     const bool ticks = std::any_of(out.plays.begin(), out.plays.end(), [](const auto& play) {
       return play.earcon == sounds::Earcon::turn || play.earcon == sounds::Earcon::turn_click;
     });
@@ -278,10 +306,14 @@ class SessionJudge {
              kTick);
     }
     const bool simulated = now.velocity && last_.velocity;
-    alive_ = simulated && now.guided && now.stick && now.trial == TrialState::State::free
+    // A stick that comes and goes is lost until it is told to be back.
+    const bool off = decided_[CueKind::pad_lost] > decided_[CueKind::pad_back];
+    plugged_ = now.stick ? plugged_ + kTick : 0.0;
+    if (off && plugged_ > 5.0 + 2.0 * kTick) demand(CueKind::pad_back, kTick);
+    alive_ = simulated && now.guided && now.stick && !off && now.trial == TrialState::State::free
                  ? alive_ + kTick
                  : 0.0;
-    if (last_.stick && !now.stick) demand(CueKind::pad_lost, 2.0 + kTick);
+    if (last_.stick && !now.stick && !off) demand(CueKind::pad_lost, 2.0 + kTick);
     if (alive_ > 2.0 && last_.gate.state == DriveState::State::running &&
         now.gate.state == DriveState::State::stopped)
       demand(CueKind::robot_stopped, 2.0 + kTick);
@@ -321,9 +353,12 @@ class SessionJudge {
   std::uint32_t running_ = 0;
   std::map<CueKind, double> decided_;     ///< s
   std::map<std::string, double> said_;    ///< s, by text
+  std::map<haptics::Pattern, double> felt_;  ///< s
+  CueKind asked_for_ = CueKind::lesson;      ///< by the voice, last
   std::map<std::uint32_t, double> hits_;  ///< s, by thing
   Scene last_;
   double alive_ = 0.0;    ///< s, since when all links have lived
+  double plugged_ = 0.0;  ///< s, since when the stick is connected
   double steady_ = 0.0;   ///< s, of the guidance's state
   double in_vain_ = 0.0;  ///< s
   double silent_ = 0.0;   ///< s, while led untold toward a goal that is not seen yet

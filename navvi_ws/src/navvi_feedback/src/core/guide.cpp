@@ -65,7 +65,6 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   decided = policy.update(now, asked, time);
   teacher.join(decided);
   if (!teacher.speaks()) lesson.reset();
-  if (teacher.speaks() && !teacher.taught().cues.empty()) lesson = teacher.taught().cues.back();
   touch.begin(decided, now.contacts, teacher.taught(), now.lead == Lead::hand);
   decided.erase(std::remove_if(decided.begin(), decided.end(),
                                [](const cues::Cue& cue) { return cue.felt; }),
@@ -161,6 +160,11 @@ void Guide::Parts::say(const cues::CueQueue::Step& step, const Devices& devices,
     const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
     if (event.stage == CueStage::ended && event.kind() == CueKind::which_side) side.told();
     if (event.stage == CueStage::started && spoken) begun.push_back(spoken->lesson);
+    if (event.stage == CueStage::started && spoken && !spoken->lesson.empty()) {
+      // Also where it says what the guide would say.
+      lesson = cues::Cue{CueKind::lesson, event.text, event.priority};
+      lesson->lesson = spoken->lesson;
+    }
     if (event.stage == CueStage::started && event.priority == Priority::important)
       important = event.id;
     else if (event.id == important && event.stage != CueStage::queued)
@@ -239,10 +243,7 @@ std::optional<CueEvent> Guide::order() const {
   std::optional<cues::Cue> order = parts_->policy.order();
   const bool urgent =
       order && (order->priority == Priority::important || traits(order->kind).shown);
-  if (parts_->lesson && !urgent) {
-    order = parts_->lesson;
-    order->kind = CueKind::lesson;  // also where it says what the guide would say
-  }
+  if (parts_->lesson && !urgent) order = parts_->lesson;
   if (!order) return std::nullopt;
   return CueEvent{0, CueStage::started, navvi_types::Spoken(order->kind, order->lesson),
                   order->text, order->priority};

@@ -12,6 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "lessons/tutorial.hpp"
+
 namespace navvi_feedback::core {
 namespace {
 
@@ -828,6 +830,37 @@ TEST(Lesson, lets_a_newcomer_drive_before_the_trial_and_the_guide_says_what_is_u
   EXPECT_EQ(said.count("press_start"), 0U);
   EXPECT_EQ(said.count("tutorial_let_go"), 1U);
   EXPECT_EQ(said.count("stuck_unknown"), 1U);
+}
+
+TEST(Lesson, shows_the_sentence_that_it_says_in_each_of_its_steps) {
+  for (const char* lesson : {"tutorial", "glossary", "calibrate"}) {
+    Learner learner(lesson);
+    TrialState waits;
+    waits.state = TrialState::State::ready;
+    learner.guide_.take(waits, learner.time_);
+    std::set<std::string> keys, wrong;
+    std::string said;
+    learner.learn(400.0, [&](const Beat& output) {
+      learner.guide_.take(Odometry{}, learner.time_);
+      learner.guide_.take(Proximity{}, learner.time_);
+      learner.guide_.take(Guidance{}, learner.time_);
+      for (const CueEvent& event : output.events) {
+        const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+        if (event.stage != CueStage::started || !spoken || spoken->lesson.empty()) continue;
+        keys.insert(spoken->lesson);
+        said = event.text;
+      }
+      if (!learner.guide_.parts().teacher.speaks() || said.empty()) return;
+      const auto order = learner.guide_.order();
+      if (!order || order->text != said || order->kind() != CueKind::lesson)
+        wrong.insert(said + " | " + (order ? order->text : "nothing"));
+    });
+    EXPECT_EQ(wrong, std::set<std::string>{}) << lesson;
+    EXPECT_GT(keys.size(), 4U) << lesson;
+    if (lesson != std::string("tutorial")) continue;
+    for (const auto& step : lessons::Tutorial::steps())
+      EXPECT_EQ(keys.count("tutorial_" + std::string(step.name)), 1U) << step.name;
+  }
 }
 
 }  // namespace

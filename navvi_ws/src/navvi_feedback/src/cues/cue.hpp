@@ -25,7 +25,7 @@ struct Cue {
   bool felt = false;                       ///< only: its words were said just now
   /// Each sounds before one of the parts of the words, which commas separate.
   std::vector<sounds::Play> scan = {};
-  std::string lesson = {};  ///< key of the text, where the kind is a lesson's
+  std::string lesson = {};  ///< key of the text, where a lesson says it
 
   /// As CueEvent::word().
   [[nodiscard]] std::string word() const {

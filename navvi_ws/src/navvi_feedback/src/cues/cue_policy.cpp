@@ -66,7 +66,7 @@ std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, d
   add(told, answer);
   add(told, led);
   std::vector<Cue> cues = say(told, tick);
-  order_.update(tick, state_, halt_, route_, leads_, cues);
+  order_.update(tick, state_, held_, halt_, route_, leads_, cues);
   return cues;
 }
 
@@ -178,6 +178,7 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
       if (event.kind() == CueKind::obstacle_comes) halt_.repeat(time_);
     }
     if (event.kind()) route_.note(*event.kind(), event.stage);
+    order_.note(event, time_);
     const bool owed = halt_.owes() && !halt_.halted();
     halt_.note(event, replaced(event), time_);
     // "Go on" was not heard to its end.

@@ -126,23 +126,35 @@ TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says
   now_.stick_held_unarmed = true;
   const Texts held = pass(5.0);
   EXPECT_EQ(std::count(held.begin(), held.end(), "release the stick"), 2);
+  EXPECT_EQ(policy_.order().value().kind, CueKind::release_stick) << "as long as it is held";
   now_.stick_held_unarmed = false;
   EXPECT_EQ(pass(3.0), Texts{"drive straight, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, asks_only_a_hand_that_rests_to_push) {
+  const auto pushes = [&] {
+    const Texts told = pass(40.0);
+    return std::count(told.begin(), told.end(), "push the stick forward");
+  };
+  now_.stick_held_unarmed = true;
+  EXPECT_EQ(pushes(), 0);
+  now_.stick_held_unarmed = false;
+  EXPECT_GT(pushes(), 0);
 }
 
 TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
   under_way();
   const auto lose_and_find = [&] {
-    now_.links.proximity = Link::alive;
+    now_.links.simulator = Link::alive;
     pass(0.1);
-    now_.links.proximity = Link::lost;
+    now_.links.simulator = Link::lost;
     return pass(0.4);
   };
-  EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
+  EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
   const Cue lost = last_;
   EXPECT_EQ(lose_and_find(), Texts{});
   policy_.note({{1, CueStage::dropped, lost.kind, lost.text}});
-  EXPECT_EQ(lose_and_find(), Texts{"obstacles are not sensed"});
+  EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
 }
 
 TEST_F(CuePolicyTest, words_directions_by_left_and_right_where_that_is_wanted) {
@@ -197,6 +209,30 @@ TEST_F(CuePolicyTest, speaks_what_can_be_spoken_in_any_situation) {
     }
     now_.contacts.clear();
   }
+}
+
+TEST_F(CuePolicyTest, orders_what_the_voice_says_and_nothing_that_it_drops_or_cuts) {
+  using Stage = navvi_types::CueStage;
+  const auto note = [&](Stage stage) {
+    policy_.note({{7, stage, CueKind::back_away, "back away, box ahead", Priority::message}});
+    return policy_.order().value().text;
+  };
+  under_way();
+  now_.nearby = {{ThingClass::box, 1, 0.15, {0.5, 0.0}, false}};
+  now_.measured->linear = 0.0;
+  ASSERT_EQ(pass(1.6), Texts{"back away, box ahead"});
+  now_.nearby.clear();
+  now_.measured->linear = 1.0;
+  note(Stage::queued);
+  EXPECT_EQ(note(Stage::dropped), "straight");
+  EXPECT_EQ(note(Stage::started), "back away, box ahead");
+  EXPECT_EQ(note(Stage::ended), "back away, box ahead");
+  pass(5.0);
+  EXPECT_EQ(note(Stage::started), "back away, box ahead") << "once more, after it had ended";
+  EXPECT_EQ(note(Stage::cut), "straight");
+  note(Stage::started);
+  policy_.note({{8, Stage::started, CueKind::straight, "go on", Priority::message}});
+  EXPECT_EQ(policy_.order().value().text, "straight") << "the voice says something else";
 }
 
 }  // namespace

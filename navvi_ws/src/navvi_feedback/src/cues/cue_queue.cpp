@@ -16,6 +16,14 @@ CueEvent event(std::uint32_t id, CueStage stage, const Cue& cue) {
 
 bool stops(const Cue& cue) { return family_of(cue.kind) == Family::halt; }
 
+/// What a lost device makes untrue before it was said.
+std::optional<CueKind> undone_by(CueKind lost) {
+  if (lost == CueKind::pad_lost) return CueKind::pad_back;
+  if (lost == CueKind::keyboard_lost) return CueKind::keyboard_back;
+  if (lost == CueKind::proximity_lost) return CueKind::proximity_back;
+  return std::nullopt;
+}
+
 /// It does not wait for another of its priority.
 bool at_once(const Cue& cue) { return cue.asked || stops(cue); }
 
@@ -47,10 +55,24 @@ CueQueue::Step CueQueue::clear() {
   return step;
 }
 
+template <typename Which>
+void CueQueue::drop(const Which& which, Step& step) {
+  for (auto entry = waiting_.begin(); entry != waiting_.end();) {
+    if (!which(*entry)) {
+      ++entry;
+      continue;
+    }
+    step.events.push_back(event(entry->id, CueStage::dropped, entry->cue));
+    entry = waiting_.erase(entry);
+  }
+}
+
 void CueQueue::enter(const Cue& cue, double time, Step& step) {
   const Entry entry{++last_id_, time, cue};
   step.events.push_back(event(entry.id, CueStage::queued, cue));
   if (stops(cue)) drop_ways(step);
+  const std::optional<CueKind> untrue = undone_by(cue.kind);
+  drop([&](const Entry& other) { return other.cue.kind == untrue; }, step);
   const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
     // Two things that were hit are two messages of one kind.
     if (cue.asked && other.cue.asked) return true;
@@ -71,18 +93,6 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
            ((at_once(cue) || cue.goes_on) && other.cue.priority == cue.priority);
   });
   waiting_.insert(place, entry);
-}
-
-template <typename Which>
-void CueQueue::drop(const Which& which, Step& step) {
-  for (auto entry = waiting_.begin(); entry != waiting_.end();) {
-    if (!which(*entry)) {
-      ++entry;
-      continue;
-    }
-    step.events.push_back(event(entry->id, CueStage::dropped, entry->cue));
-    entry = waiting_.erase(entry);
-  }
 }
 
 void CueQueue::drop_ways(Step& step) {

@@ -184,6 +184,15 @@ TEST(CueQueue, replaces_a_waiting_cue_by_a_newer_of_its_kind) {
             (Words{"queued b", "dropped b"}));
 }
 
+TEST(CueQueue, drops_that_a_device_is_back_once_it_is_lost_again) {
+  CueQueue queue;
+  (void)queue.update({cue("keyboard_lost", Priority::important)}, false, 0.0);
+  EXPECT_EQ(told(queue.update({cue("keyboard_back", Priority::message)}, true, 0.1)),
+            (Words{"queued keyboard_back"}));
+  EXPECT_EQ(told(queue.update({cue("keyboard_lost", Priority::important)}, true, 0.2)),
+            (Words{"queued keyboard_lost", "dropped keyboard_back"}));
+}
+
 TEST(CueQueue, keeps_important_cues_of_one_kind_that_say_different_things) {
   CueQueue queue;
   Cue box = cue("hit", Priority::important);

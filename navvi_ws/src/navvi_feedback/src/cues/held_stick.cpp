@@ -13,7 +13,7 @@ constexpr double kRepeat = 2.5;
 constexpr double kNeutral = 0.02;
 
 /// What a person has to do whose stick moves nothing.
-std::optional<CueKind> remedy(const Observation& now) {
+std::optional<CueKind> remedy_of(const Observation& now) {
   if (now.stick_disabled) return CueKind::hold_to_drive;
   if (now.stick_held_unarmed) return CueKind::release_stick;
   const bool shut =
@@ -26,15 +26,17 @@ std::optional<CueKind> remedy(const Observation& now) {
 }  // namespace
 
 Utterances HeldStick::update(const Observation& now, double time) {
-  const std::optional<CueKind> needed = remedy(now);
-  if (!needed) {
-    since_.reset();
+  const std::optional<CueKind> remedy = remedy_of(now);
+  if (!remedy) {
+    forget();
     return {};
   }
   if (!since_) since_ = time;
-  if (time - *since_ < kHold || (said_ && time - *said_ < kRepeat)) return {};
+  if (time - *since_ < kHold) return {};
+  needed_ = remedy;
+  if (said_ && time - *said_ < kRepeat) return {};
   said_ = time;
-  return {{*needed}};
+  return {{*remedy}};
 }
 
 }  // namespace navvi_feedback::cues

@@ -18,11 +18,17 @@ class HeldStick {
   /// Another cue has just asked for the same.
   void said(double time) { said_ = time; }
   /// There is no stick, or nothing to be moved.
-  void forget() { since_.reset(); }
+  void forget() {
+    since_.reset();
+    needed_.reset();
+  }
+  /// What the person has to do, as long as it is so.
+  [[nodiscard]] std::optional<CueKind> needed() const { return needed_; }
 
  private:
   std::optional<double> since_;  ///< s, held in vain
-  std::optional<double> said_;   ///< s
+  std::optional<CueKind> needed_;
+  std::optional<double> said_;  ///< s
 };
 
 }  // namespace navvi_feedback::cues

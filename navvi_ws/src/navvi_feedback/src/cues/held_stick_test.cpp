@@ -33,6 +33,7 @@ TEST_F(HeldStickTest, asks_for_a_stick_that_is_held_from_the_beginning_again_and
   EXPECT_EQ(pass(0.4), 0);
   EXPECT_EQ(pass(0.4), 1);
   EXPECT_EQ(pass(12.0), 4);
+  EXPECT_EQ(held_.needed(), CueKind::release_stick);
   now_.stick_held_unarmed = false;
   EXPECT_EQ(pass(10.0), 0);
 }

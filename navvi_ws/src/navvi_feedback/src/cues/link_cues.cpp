@@ -1,12 +1,17 @@
 #include "cues/link_cues.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace navvi_feedback::cues {
 namespace {
 
 /// s; what dies with the simulator may be missed by so much before it.
 constexpr double kTogether = 0.3;
+/// s; what comes back twice within it flaps.
+constexpr double kFlaps = 20.0;
+/// s, of being alive, before what flaps counts as back.
+constexpr double kSteady = 5.0;
 
 }  // namespace
 
@@ -22,6 +27,14 @@ CueKind lost_robot(const Observation& now) {
   return now.simulated ? CueKind::simulator_lost : CueKind::odometry_lost;
 }
 
+Link Flapping::judge(Link now, double time) {
+  const bool comes_back = std::exchange(last_, now) == Link::lost && now == Link::alive;
+  if (comes_back) flaps_ = time - std::exchange(back_, time) < kFlaps;
+  const bool held = counts_ == Link::lost && now == Link::alive && flaps_;
+  if (!held || time - back_ >= kSteady) counts_ = now;
+  return counts_;
+}
+
 const Links& LinkCues::judge(const Observation& now, double time) {
   if (!first_) first_ = time;
   const bool waited = time - *first_ > patience_;
@@ -32,7 +45,8 @@ const Links& LinkCues::judge(const Observation& now, double time) {
   const bool just_lost = links.proximity == Link::lost && time - sensed_ < kTogether;
   const Link near = just_lost ? Link::alive : judged(links.proximity);
   last_ = links_;
-  links_ = {judged(links.pad), judged(links.simulator), near, judged(links.guidance), links.audio};
+  links_ = {pad_.judge(judged(links.pad), time), judged(links.simulator),
+            proximity_.judge(near, time), judged(links.guidance), audio_.judge(links.audio, time)};
   return links_;
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cue_policy_fixture.hpp"
 
 namespace navvi_feedback::cues {
@@ -90,6 +92,35 @@ TEST_F(LinkCuesTest, names_the_keyboard_where_the_stick_is_one) {
   EXPECT_EQ(pass(1.0), Texts{"the keys are off, select the keyboard window"});
   now_.links.pad = Link::alive;
   EXPECT_EQ(pass(1.0).front(), "the keys are on, release them first");
+}
+
+TEST_F(LinkCuesTest, says_once_that_a_flapping_device_is_lost_and_is_back_once_steady) {
+  now_.devices.keyboard = true;
+  under_way();
+  const auto flap = [&](Link Links::*link, double seconds) {
+    now_.links.*link = Link::lost;
+    Texts told = pass(seconds);
+    now_.links.*link = Link::alive;
+    for (const std::string& text : pass(seconds)) told.push_back(text);
+    return told;
+  };
+  for (const double seconds : {0.1, 1.0, 3.0}) {
+    pass(30.0);
+    EXPECT_EQ(flap(&Links::pad, seconds).front(), "the keys are off, select the keyboard window");
+    Texts told;
+    for (int i = 0; i < 20; ++i)
+      for (const std::string& text : flap(&Links::pad, seconds)) told.push_back(text);
+    EXPECT_EQ(told, Texts{"the keys are off, select the keyboard window"}) << seconds;
+    EXPECT_EQ(policy_.order().value().kind, CueKind::keyboard_lost) << "what was said is shown";
+    EXPECT_EQ(pass(6.0).front(), "the keys are on, release them first");
+  }
+  pass(30.0);
+  Texts told = flap(&Links::proximity, 1.0);
+  EXPECT_EQ(told, (Texts{"obstacles are not sensed", "obstacles are sensed again"}));
+  for (int i = 0; i < 20; ++i)
+    for (const std::string& text : flap(&Links::proximity, 1.0)) told.push_back(text);
+  EXPECT_EQ(std::count(told.begin(), told.end(), "obstacles are not sensed"), 2);
+  EXPECT_EQ(std::count(told.begin(), told.end(), "obstacles are sensed again"), 1);
 }
 
 TEST_F(LinkCuesTest,

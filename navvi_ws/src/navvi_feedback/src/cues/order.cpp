@@ -6,6 +6,8 @@
 namespace navvi_feedback::cues {
 namespace {
 
+using navvi_types::Ask;
+
 constexpr double kShown = 4.0;  // s
 
 /// The robot cannot be driven.
@@ -18,27 +20,47 @@ std::optional<Utterance> undriveable(const Tick& tick) {
   return std::nullopt;
 }
 
+/// As long as it is so.
+std::optional<Utterance> lasting(const Tick& tick, const StateCues& state, const HeldStick& held,
+                                 const Halt& halt, const RouteCues& route, bool leads) {
+  const std::optional<CueKind> problem = state.problem();
+  if (problem && problem != CueKind::blocked && problem != CueKind::welcome)
+    return problem_words(*problem, tick.now);
+  if (held.needed()) return Utterance{*held.needed()};
+  if (halt.halted()) return halt.words();
+  return leads ? route.order(*tick.now.guidance) : std::nullopt;
+}
+
+/// It asks for something else than what is shown.
+bool replaces(Ask ask) { return ask != Ask::nothing && ask != Ask::beware && ask != Ask::ready; }
+
 }  // namespace
 
-void Order::update(const Tick& tick, const StateCues& state, const Halt& halt,
-                   const RouteCues& route, bool leads, const std::vector<Cue>& told) {
+void Order::note(const CueEvent& event, double time) {
+  const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+  if (!spoken || !spoken->lesson.empty()) return;
+  const navvi_types::CueTraits& kind = traits(spoken->kind);
+  if (event.stage == CueStage::started && kind.shown)
+    event_ = Event{Utterance{kind.kind}, event.text, time, event.id};
+  else if (event.stage == CueStage::started && replaces(kind.ask))
+    event_.reset();
+  else if (event.stage == CueStage::cut && event_ && event.id == event_->id)
+    event_.reset();
+}
+
+void Order::update(const Tick& tick, const StateCues& state, const HeldStick& held,
+                   const Halt& halt, const RouteCues& route, bool leads,
+                   const std::vector<Cue>& told) {
   for (const Cue& cue : told) {
     if (family_of(cue.kind) == Family::halt) event_.reset();
-    if (traits(cue.kind).shown) event_ = Event{{cue.kind}, cue.text, tick.time};
+    if (traits(cue.kind).shown && cue.felt && !halt.halted())
+      event_ = Event{Utterance{cue.kind}, cue.text, tick.time};
   }
   if (event_ && tick.time - event_->time >= kShown) event_.reset();
-  const std::optional<CueKind> problem = state.problem();
-  said_.clear();
-  now_ = undriveable(tick);
-  if (!now_ && event_) {
-    now_ = event_->words;
-    said_ = event_->text;
-  }
-  if (!now_ && problem && problem != CueKind::blocked && problem != CueKind::welcome)
-    now_ = problem_words(*problem, tick.now);
-  if (!now_ && halt.halted()) now_ = halt.words();
-  if (!now_ && leads) now_ = route.order(*tick.now.guidance);
-  if (now_) now_->fillings.keys = tick.now.devices.keyboard;
+  undriveable_ = undriveable(tick);
+  lasting_ = lasting(tick, state, held, halt, route, leads);
+  for (std::optional<Utterance>* const words : {&undriveable_, &lasting_})
+    if (*words) (*words)->fillings.keys = tick.now.devices.keyboard;
 }
 
 }  // namespace navvi_feedback::cues

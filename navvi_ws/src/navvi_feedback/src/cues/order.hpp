@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cues/halt.hpp"
+#include "cues/held_stick.hpp"
 #include "cues/route_cues.hpp"
 #include "cues/state_cues.hpp"
 #include "cues/tick.hpp"
@@ -16,26 +17,31 @@ class Order {
  public:
   /// Call it once all else of the tick is decided.
   /// \param leads  the path is to be followed now \param told  the cues of the tick
-  void update(const Tick& tick, const StateCues& state, const Halt& halt, const RouteCues& route,
-              bool leads, const std::vector<Cue>& told);
+  void update(const Tick& tick, const StateCues& state, const HeldStick& held, const Halt& halt,
+              const RouteCues& route, bool leads, const std::vector<Cue>& told);
+  /// The voice has begun, cut or dropped a cue: what it does not say is not shown, either.
+  void note(const CueEvent& event, double time);
 
   /// nullopt: nothing
-  [[nodiscard]] const std::optional<Utterance>& now() const { return now_; }
+  [[nodiscard]] const std::optional<Utterance>& now() const {
+    return undriveable_ ? undriveable_ : event_ ? event_->words : lasting_;
+  }
   /// The wheels are stopped until the stick was released.
-  [[nodiscard]] bool stopped() const { return now_ && now_->kind == CueKind::robot_stopped; }
+  [[nodiscard]] bool stopped() const { return now() && now()->kind == CueKind::robot_stopped; }
   /// The words, where they are those that the voice said; empty: those of now() are meant
-  [[nodiscard]] const std::string& said() const { return said_; }
+  [[nodiscard]] std::string said() const { return !undriveable_ && event_ ? event_->text : ""; }
 
  private:
   struct Event {
-    Utterance words;
+    std::optional<Utterance> words;
     std::string text;
-    double time = 0.0;  ///< s
+    double time = 0.0;     ///< s
+    std::uint32_t id = 0;  ///< of the cue; 0: it was felt instead of said
   };
 
+  std::optional<Utterance> undriveable_;
   std::optional<Event> event_;  ///< of a kind that is shown for some seconds
-  std::optional<Utterance> now_;
-  std::string said_;
+  std::optional<Utterance> lasting_;
 };
 
 }  // namespace navvi_feedback::cues

@@ -16,7 +16,8 @@ void StillHand::observe(const Observation& now, double time) {
   const bool drives = std::abs(now.commanded.linear) > kNeutral.linear;
   const bool turns = std::abs(now.commanded.angular) > kNeutral.angular;
   driven = driven || drives;
-  if (drives || turns || now.voice_busy)
+  const bool in_vain = now.stick_held_unarmed || now.stick_disabled;  // HeldStick says what helps
+  if (drives || turns || in_vain || now.voice_busy)
     since.reset();
   else if (!since)
     since = time;

@@ -65,15 +65,18 @@ void MixerConfig::describe(navvi_config::Visitor& visit) {
 }
 
 struct Mixer::Handles {
-  /// The first is the voice's, the last that of what lasts.
-  static constexpr std::size_t kSources = 10;
+  /// The first two are the voice's in turn, so that a sentence begins while the one before fades
+  /// out; the last is that of what lasts.
+  static constexpr std::size_t kSources = 11;
+  static constexpr std::size_t kVoices = 2;
   static constexpr std::size_t kLasting = kSources - 1;
 
   ALCdevice* device = nullptr;
   ALCcontext* context = nullptr;
   std::array<ALuint, kSources> sources{};
   std::array<ALuint, kSources> buffers{};
-  std::size_t next = 0;  ///< of the short sounds, the oldest
+  std::size_t voice = 0;
+  std::size_t next = kVoices;  ///< of the short sounds, the oldest
 
   [[nodiscard]] bool start(std::size_t index, const Sound& sound, double gain,
                            const Eigen::Vector2d& from) const {
@@ -191,39 +194,41 @@ void Mixer::report(Status::Device device, const std::string& detail) {
 
 bool Mixer::speak(const Sound& sound, double gain) {
   const std::lock_guard lock(device_mutex_);
-  return connected() && handles_->start(0, sound, volume_ * gain, Eigen::Vector2d::UnitX());
+  handles_->voice = 1 - handles_->voice;
+  return connected() &&
+         handles_->start(handles_->voice, sound, volume_ * gain, Eigen::Vector2d::UnitX());
 }
 
 bool Mixer::speaking() const {
   const std::lock_guard lock(device_mutex_);
   if (!connected()) return false;
   ALint state = AL_STOPPED;
-  alGetSourcei(handles_->sources[0], AL_SOURCE_STATE, &state);
+  alGetSourcei(handles_->sources[handles_->voice], AL_SOURCE_STATE, &state);
   return state == AL_PLAYING;
 }
 
 int Mixer::mixed() const {
   const std::lock_guard lock(device_mutex_);
   ALint samples = 0;
-  if (connected()) alGetSourcei(handles_->sources[0], AL_SAMPLE_OFFSET, &samples);
+  if (connected()) alGetSourcei(handles_->sources[handles_->voice], AL_SAMPLE_OFFSET, &samples);
   return samples;
 }
 
 void Mixer::mute() {
   const std::lock_guard lock(device_mutex_);
   // The mixer ramps to the new gain over one period.
-  if (handles_->device != nullptr) alSourcef(handles_->sources[0], AL_GAIN, 0.0F);
+  if (handles_->device != nullptr) alSourcef(handles_->sources[handles_->voice], AL_GAIN, 0.0F);
 }
 
 void Mixer::stop() {
   const std::lock_guard lock(device_mutex_);
-  if (handles_->device != nullptr) handles_->release(0);
+  if (handles_->device != nullptr) handles_->release(handles_->voice);
 }
 
 bool Mixer::play(const Sound& sound, double gain, const Eigen::Vector2d& from) {
   const std::unique_lock lock(device_mutex_, kPatience);
   if (!lock || !connected()) return false;
-  handles_->next = handles_->next % (Handles::kLasting - 1) + 1;
+  if (++handles_->next >= Handles::kLasting) handles_->next = Handles::kVoices;
   return handles_->start(handles_->next, sound, volume_ * gain, from);
 }
 

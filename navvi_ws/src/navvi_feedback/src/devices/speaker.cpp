@@ -160,9 +160,10 @@ std::optional<Speaker::Job> Speaker::next() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kIdlePoll, [this] { return quit_ || request_; });
   if (quit_) return std::nullopt;
-  silent_ = {};  // nothing is heard
-  return Job{std::exchange(request_, std::nullopt), generation_, config_.rate,
-             std::exchange(begun_, {}), std::exchange(scan_, {})};
+  Job job{std::exchange(request_, std::nullopt), generation_, config_.rate,
+          std::exchange(begun_, {}), std::exchange(silent_, {}), std::exchange(scan_, {})};
+  if (!std::exchange(fades_, false)) job.silent = {};  // nothing was heard
+  return job;
 }
 
 bool Speaker::superseded(unsigned long generation) const {
@@ -173,8 +174,10 @@ bool Speaker::superseded(unsigned long generation) const {
 void Speaker::play(const Sound& sound, Job& job) {
   mixer_.tend();
   const auto end = Clock::now() + seconds(sound.duration());
+  const bool faded = mixer_.mixed() != muted_at_;  // what was cut, in a mix since
   bool audible = !sound.samples.empty() && mixer_.speak(sound, config_.volume);
   bool begun = !audible;
+  int first = 0;  // samples of the first mix
   while (true) {
     {
       std::unique_lock lock(mutex_);
@@ -182,10 +185,11 @@ void Speaker::play(const Sound& sound, Job& job) {
                             [&] { return job.generation != generation_; }))
         break;
     }
-    if (!begun && mixer_.mixed() > 0) {
+    if (!begun && (first = mixer_.mixed()) > 0) {
       begun = true;
       if (job.begun) std::exchange(job.begun, {})();
     }
+    if (job.silent && begun && (faded || mixer_.mixed() > first)) std::exchange(job.silent, {})();
     if (audible && !mixer_.speaking()) {
       audible = false;
       mixer_.tend();
@@ -193,21 +197,27 @@ void Speaker::play(const Sound& sound, Job& job) {
     // What a device that was lost did not play passes in silence, so that the times stay true.
     if (!audible && Clock::now() >= end) break;
   }
-  if (audible && mixer_.speaking()) fall_silent();
+  if (audible && mixer_.speaking()) return fall_silent();
   mixer_.stop();
 }
 
 void Speaker::fall_silent() {
+  muted_at_ = mixer_.mixed();
   mixer_.mute();
   const auto end = Clock::now() + kFade;
   // The first mix from now on fades out, the next is silent.
   int mixes = 0;
   for (int seen = mixer_.mixed(); mixes < 2 && Clock::now() < end;) {
-    std::this_thread::sleep_for(kCloseLook);
+    {
+      std::unique_lock lock(mutex_);
+      fades_ = changed_.wait_for(lock, kCloseLook, [this] { return request_.has_value(); });
+    }
+    if (fades_) return;
     const int now = mixer_.mixed();
     if (now != seen) ++mixes;
     seen = now;
   }
+  mixer_.stop();
   std::function<void()> silent;
   {
     const std::lock_guard lock(mutex_);

@@ -68,6 +68,7 @@ class Speaker {
     unsigned long generation = 0;
     int rate = 0;  ///< words a minute
     std::function<void()> begun = {};
+    std::function<void()> silent = {};  ///< of what was cut for it
     std::vector<sounds::Play> scan = {};
   };
 
@@ -80,6 +81,7 @@ class Speaker {
   [[nodiscard]] bool speak(Voice& voice, Job& job);
   void play(const Sound& sound, Job& job);
   void play_first(const sounds::Play& play, Job& job);
+  /// Waits until it is, unless something is to be said.
   void fall_silent();
 
   SpeakerConfig config_;
@@ -93,6 +95,8 @@ class Speaker {
   unsigned long generation_ = 0;  ///< grows with every start and stop
   bool busy_ = false;
   bool quit_ = false;
+  bool fades_ = false;  ///< what was cut is not silent yet; of the thread alone, as the next
+  int muted_at_ = 0;    ///< samples of it that had been mixed
   Status status_;
   std::thread thread_;
 };

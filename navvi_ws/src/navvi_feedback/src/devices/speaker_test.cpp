@@ -248,6 +248,26 @@ TEST(Speaker, tells_when_words_begin_to_be_heard_and_when_they_end) {
   speaker.start("stop", [&] { ++begun; });
   ASSERT_TRUE(wait_for([&] { return begun == 2; }));
   EXPECT_EQ(silent, 1);
+  speaker.stop([&] { ++silent; });
+  speaker.start("go on, drive straight", [&] { ++begun; });
+  ASSERT_TRUE(wait_for([&] { return begun == 3 && silent == 2; }));
+}
+
+TEST(Speaker, begins_a_sentence_while_the_one_that_it_cuts_fades_out) {
+  {
+    Mixer mixer(MixerConfig{}, Audio::on);
+    Speaker speaker(SpeakerConfig{}, mixer);
+    for (int i = 0; i < 20; ++i) {
+      speaker.stop();
+      speaker.start(i % 2 == 0 ? "you have reached the goal" : "drive straight");
+      pause(0.3);
+    }
+    speaker.stop();
+    pause(1.0);
+  }
+  const std::vector<double> all = loudness(heard().left, 22);
+  EXPECT_GT(loud_time(), 2.0);
+  EXPECT_LT(all.back(), 0.01) << "one of them is still heard";
 }
 
 TEST(Speaker, plays_each_sound_of_a_scan_from_its_place_before_its_word) {

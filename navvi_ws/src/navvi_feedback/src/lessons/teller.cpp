@@ -71,7 +71,7 @@ void Teller::tell(const std::string& key, const Fillings& fillings) {
 }
 
 void Teller::then_phrase(CueKind kind, const cues::Fillings& fillings) {
-  push(kind, phrases_.say(kind, fillings), "");
+  push(kind, phrases_.say(kind, fillings), to_string(kind));
 }
 
 void Teller::tell_phrase(const std::string& key, const cues::Utterance& words) {

@@ -185,6 +185,9 @@ TEST_F(SdfFrames, that_are_not_there_or_go_in_circles_are_refused) {
   EXPECT_NE(frames("<link name='a'><pose>0 0 1e7 0 0 0</pose></link>"), "");
   EXPECT_NE(frames("<link name='a'><pose rotation_format='quat_xyzw'>0 0 0 0 0 0 0</pose></link>"),
             "");
+  EXPECT_NE(frames("<link name='a'><pose rotation_format='zyx'>0 0 0 0 0 0</pose></link>")
+                .find("rotation_format of <pose> is \"zyx\"; allowed are euler_rpy and quat_xyzw"),
+            std::string::npos);
   std::string chain;
   for (int i = 0; i < 200; ++i)
     chain += "<frame name='f" + std::to_string(i) + "'><pose relative_to='f" +

@@ -34,6 +34,14 @@ TEST_F(SdfShapesTest, are_box_cylinder_and_sphere_as_they_are) {
       1e-9);
 }
 
+TEST_F(SdfShapesTest, are_all_taken_with_a_note_where_a_geometry_has_several) {
+  const std::string two = "<box><size>1 1 1</size></box><sphere><radius>0.2</radius></sphere>";
+  const LoadedWorld loaded = load(ground_ + model("it", two), "1.9");
+  EXPECT_EQ(thing_named(loaded.world, "it")->shapes.size(), 2U);
+  ASSERT_EQ(loaded.notes.size(), 1U);
+  EXPECT_NE(loaded.notes[0].find("of 'it' has several shapes"), std::string::npos);
+}
+
 TEST_F(SdfShapesTest, make_a_cone_with_its_tip_up) {
   const Thing cone = thing_of("<cone><radius>0.5</radius><length>2</length></cone>");
   ASSERT_EQ(cone.shapes.size(), 1U);

@@ -26,6 +26,15 @@ TEST(WorldSource, knows_presets_by_name_and_nothing_else) {
     EXPECT_THROW(static_cast<void>(load_world({spec, "", 3})), WorldError) << spec;
 }
 
+TEST(WorldSource, takes_a_file_whose_name_is_nothing_but_the_ending) {
+  const fs::path folder = fs::path(testing::TempDir()) / "only_an_ending";
+  fs::create_directories(folder);
+  const fs::path file = folder / ".world";
+  fs::copy_file(fs::path(NAVVI_SIM_DIR) / "worlds/small_room.world", file,
+                fs::copy_options::overwrite_existing);
+  EXPECT_NO_THROW(static_cast<void>(load_world({file.string()})));
+}
+
 TEST(WorldSource, splits_folders_at_colons) {
   EXPECT_TRUE(folders("").empty());
   EXPECT_EQ(folders("/::/tmp:").size(), 2U);

@@ -199,15 +199,16 @@ using T = Pattern;
 
 // kind, word, priority, least interval in s, largest age in s, family, ask, shown, pattern
 inline constexpr CueTraits kRows[] = {
-    // Safety: nothing cuts these. Each thing that is hit has its own cue, see CuePolicy.
+    // Safety: nothing cuts these. Each thing that is hit has its own cue, see CuePolicy; the loss
+    // of a device has no least interval, or "it is back" would stand, see Flapping.
     {K::collision_shelf, "collision_shelf", P::important, 0.0, 3.0, F::hit, A::back, true},
     {K::collision_wall, "collision_wall", P::important, 0.0, 3.0, F::hit, A::back, true},
     {K::collision_obstacle, "collision_obstacle", P::important, 0.0, 3.0, F::hit, A::back,
      true},
     {K::obstacle_stop, "obstacle_stop", P::important, 3.0, 1.0, F::halt, A::beware, false,
      T::halt},
-    {K::pad_lost, "pad_lost", P::important, 2.0, 10.0, F::other, A::halt},
-    {K::keyboard_lost, "keyboard_lost", P::important, 2.0, 10.0, F::other, A::halt},
+    {K::pad_lost, "pad_lost", P::important, 0.0, 10.0, F::other, A::halt},
+    {K::keyboard_lost, "keyboard_lost", P::important, 0.0, 10.0, F::other, A::halt},
     {K::pad_too_late, "pad_too_late", P::important, 5.0, 10.0, F::other, A::halt},
     {K::emergency_stop, "emergency_stop", P::important, 2.0, 10.0, F::other, A::halt},
     {K::robot_stopped, "robot_stopped", P::important, 2.0, 4.0, F::other, A::halt, false,
@@ -216,7 +217,7 @@ inline constexpr CueTraits kRows[] = {
     {K::odometry_lost, "odometry_lost", P::important, 5.0, 10.0, F::other, A::halt},
     {K::connection_lost, "connection_lost", P::important, 5.0, 10.0, F::other, A::halt, false,
      T::stopped},
-    {K::proximity_lost, "proximity_lost", P::important, 5.0, 10.0, F::other, A::nothing, true},
+    {K::proximity_lost, "proximity_lost", P::important, 0.0, 10.0, F::other, A::nothing, true},
     {K::guidance_lost, "guidance_lost", P::important, 5.0, 5.0, F::other, A::halt},
     {K::record_lost, "record_lost", P::important, 5.0, 10.0, F::other, A::nothing, true},
     {K::trial_disk_full, "trial_disk_full", P::important, 5.0, 10.0, F::trial_end, A::nothing,
