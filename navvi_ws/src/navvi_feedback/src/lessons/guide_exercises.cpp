@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "lessons/word.hpp"
 
 namespace navvi_feedback::lessons {
 namespace {

@@ -13,7 +13,6 @@
 #include "read/sdf_motion.hpp"
 #include "read/sdf_own.hpp"
 #include "read/sdf_things.hpp"
-#include "read/sdf_traffic.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {

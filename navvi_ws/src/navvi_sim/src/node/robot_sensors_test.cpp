@@ -1,4 +1,4 @@
-#include "node/sensor_conversion.hpp"
+#include "node/robot_sensors.hpp"
 
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>

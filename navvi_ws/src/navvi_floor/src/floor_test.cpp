@@ -1,4 +1,4 @@
-#include "navvi_floor/bands.hpp"
+#include "navvi_floor/floor.hpp"
 
 #include <gtest/gtest.h>
 

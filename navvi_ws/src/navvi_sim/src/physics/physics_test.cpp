@@ -1,4 +1,4 @@
-#include "physics/contact_counter.hpp"
+#include "physics/physics.hpp"
 
 #include <gtest/gtest.h>
 

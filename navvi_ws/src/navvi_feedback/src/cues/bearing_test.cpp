@@ -1,4 +1,4 @@
-#include "cues/lead_off.hpp"
+#include "cues/bearing.hpp"
 
 #include <gtest/gtest.h>
 
