@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-
 namespace navvi_feedback::lessons {
 namespace {
 

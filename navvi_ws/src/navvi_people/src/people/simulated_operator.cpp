@@ -1,9 +1,7 @@
 #include "navvi_people/people/simulated_operator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "people/traits.hpp"
 
@@ -550,27 +548,6 @@ void SimulatedOperator::ask_when_lost(double time) {
   const double patience =
       mode_ == Mode::waiting ? config_.attention.idle_patience : config_.attention.patience;
   if (time - when_.news >= patience && time - when_.asked >= patience + kPress) when_.asked = time;
-}
-
-std::string SimulatedOperator::doing() const {
-  std::array<char, 64> text{};
-  const double turn = std::remainder(at_.heading - course_.target, 2.0 * kPi) * 180.0 / kPi;
-  switch (mode_) {
-    case Mode::waiting:
-      return "waiting";
-    case Mode::turning:
-      std::snprintf(text.data(), text.size(), "turning %+.0f", turn);
-      return text.data();
-    case Mode::driving:
-      std::snprintf(text.data(), text.size(), "driving %.1f m more, %+.0f",
-                    course_.stop_at - at_.odometer, turn);
-      return text.data();
-    case Mode::backing:
-      return "backing";
-    case Mode::arrived:
-      return "arrived";
-  }
-  return "";
 }
 
 /// What the ear took in first the hand does first, however long either took.

@@ -8,7 +8,6 @@
 #include "description/validate.hpp"
 #include "generate/furniture.hpp"
 #include "read/sdf_files.hpp"
-#include "read/sdf_frames.hpp"
 #include "read/sdf_geometry.hpp"
 #include "read/sdf_motion.hpp"
 #include "read/sdf_own.hpp"

@@ -10,12 +10,9 @@
 #include "navvi_people/people/ears.hpp"
 #include "navvi_people/people/feeling.hpp"
 #include "navvi_people/people/heard.hpp"
-#include "navvi_people/people/hearing.hpp"
 #include "navvi_people/people/instruction.hpp"
 #include "navvi_people/people/mind.hpp"
-#include "navvi_people/people/pulses.hpp"
 #include "navvi_people/people/tracking.hpp"
-#include "navvi_people/people/turning.hpp"
 
 namespace navvi_people::people {
 
@@ -68,8 +65,6 @@ class SimulatedOperator {
   [[nodiscard]] const Listener& listener() const { return ears_.listener(); }
   [[nodiscard]] bool arrived() const { return mode_ == Mode::arrived; }
   [[nodiscard]] bool gave_up() const { return attention_.gave_up(); }
-  /// What the hands are at, in words, for a trace.
-  [[nodiscard]] std::string doing() const;
 
  private:
   enum class Mode { waiting, turning, driving, backing, arrived };
