@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "devices/earcon_player.hpp"
 #include "heard.hpp"
 
 namespace navvi_feedback::devices {

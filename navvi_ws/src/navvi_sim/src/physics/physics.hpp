@@ -9,7 +9,7 @@
 #include <navvi_types/thing.hpp>
 #include <vector>
 
-#include "navvi_sim/description/mover_state.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/physics/robot.hpp"
 #include "physics/bodies.hpp"
 
