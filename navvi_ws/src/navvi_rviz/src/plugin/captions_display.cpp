@@ -21,7 +21,6 @@
 #include "look/skyline.hpp"
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
-#include "plugin/views.hpp"
 
 namespace navvi_rviz::plugin {
 namespace {

@@ -23,7 +23,6 @@
 
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
-#include "plugin/views.hpp"
 #include "plugin/flow_layout.hpp"
 
 namespace navvi_rviz::plugin {
