@@ -161,6 +161,20 @@ def map_file(tmp_path):
     return str(tmp_path / "room.yaml")
 
 
+@pytest.mark.parametrize("picture", ["room.png", "room.ppm"])
+def test_a_map_is_read_whatever_its_picture_is(picture, map_file, tmp_path):
+    Image = pytest.importorskip("PIL.Image")
+    plain = navvi("navmesh", map_file, "--csv").stdout
+    Image.open(tmp_path / "room.pgm").convert("RGB").save(tmp_path / picture)
+    other = tmp_path / "other.yaml"
+    other.write_text(pathlib.Path(map_file).read_text().replace("room.pgm", picture))
+    rows = [[line for line in text.splitlines() if " ms," not in line] for text in (plain, navvi("navmesh", str(other), "--csv").stdout)]
+    assert len(rows[0]) > 8 and rows[0] == rows[1]
+    (tmp_path / picture).write_bytes(b"\x89PNG or not")
+    broken = navvi("navmesh", str(other))
+    assert broken.returncode == 2 and len(sentences(broken)) == 1 and f"{picture}: the picture cannot be read" in broken.stderr
+
+
 @pytest.mark.parametrize("command", [["world", "show", "training"], ["navmesh", None]], ids=lambda words: words[0])
 def test_a_picture_is_what_its_ending_says(command, map_file, tmp_path):
     command = [word or map_file for word in command]

@@ -7,7 +7,10 @@ Example
 ./navvi navmesh my_map.bt -o mesh.png --from 1,-9 --to 1,6
 """
 import os
+import re
 import sys
+import tempfile
+from pathlib import Path
 
 from navvi_cli.arguments import parameter
 from navvi_cli.say import fail, say
@@ -21,6 +24,32 @@ def map_file(word):
     if os.path.splitext(word)[1] not in (".bt", ".ot", ".yaml"):
         fail(f"\"{word}\" is not a map; files that end in .bt, .ot (OctoMap) and .yaml (map_server) are allowed.", 2)
     return word
+
+
+def is_small(path):
+    return Path(path).is_file() and Path(path).stat().st_size < 64 << 20
+
+
+def pixels(path, folder):
+    """The picture of the map_server map `path` as a PGM of bytes in `folder`, where it is another: navmesh_tool reads no other."""
+    named = re.search(r"^image: *[\"']?([^\"'#\n]+)", Path(path).read_text(errors="replace"), re.M) if is_small(path) and path.endswith(".yaml") else None
+    images = [Path(path).parent / named[1].strip(), Path(path).parent / Path(named[1].strip()).name] if named else []
+    image = next(filter(is_small, images), None)
+    if image is None or image.read_bytes()[:2] == b"P5":
+        return []  # the tool says what is wrong, if anything is
+    try:
+        import numpy
+        from PIL import Image
+        with Image.open(image) as picture:
+            white = Image.new("RGBA", picture.size, "white")
+            grey = numpy.asarray(Image.alpha_composite(white, picture.convert("RGBA")), dtype=int)[:, :, :3].sum(axis=2) // 3
+    except ImportError:
+        fail(f"{image}: reading a picture that is not a PGM (P5) takes the Debian package python3-pil; `sudo apt install python3-pil` installs it.", 2)
+    except Exception as problem:  # Pillow raises many kinds
+        fail(f"{image}: the picture cannot be read: {problem}.", 2)
+    made = Path(folder) / "map.pgm"
+    made.write_bytes(b"P5 %d %d 255\n" % grey.shape[::-1] + grey.astype("uint8").tobytes())
+    return [f"picture:={made}"]
 
 
 def numbers_in(count):
@@ -53,7 +82,10 @@ def run(args):
     given = {name: getattr(args, name) for name in ("from", "to", "stage", "config") if getattr(args, name) is not None}
     given["cylinders"] = [number for at in args.cylinder for number in at]
     drawing = ["drawing:=true"] if args.picture else []
-    done, found = answer(tool("navvi_nav", "navmesh_tool"), args.map, *(f"{name}:={value}" for name, value in given.items()), *drawing, *args.parameters)
+    program = tool("navvi_nav", "navmesh_tool")
+    with tempfile.TemporaryDirectory() as folder:
+        words = [*pixels(args.map, folder), *(f"{name}:={value}" for name, value in given.items()), *drawing, *args.parameters]
+        done, found = answer(program, args.map, *words)
     sys.stderr.write(done.stderr)
     if not found:
         return done.returncode

@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
 
 namespace navvi_files {
 namespace {
@@ -46,12 +44,6 @@ std::string json_object(const JsonFields& fields) {
   std::vector<std::string> pairs;
   for (const auto& [name, value] : fields) pairs.push_back(json_text(name) + ": " + value);
   return between('{', pairs, '}');
-}
-
-void write_json(const std::filesystem::path& path, const JsonFields& fields) {
-  std::ofstream file(path);
-  file << json_object(fields) << '\n';
-  if (!file.flush()) throw std::runtime_error("the file '" + path.string() + "' cannot be written");
 }
 
 }  // namespace navvi_files

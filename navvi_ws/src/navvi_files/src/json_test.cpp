@@ -25,9 +25,5 @@ TEST(Json, has_null_for_what_is_not_finite) {
   EXPECT_EQ(json_number(-std::numeric_limits<double>::infinity()), "null");
 }
 
-TEST(Json, that_cannot_be_written_is_an_error) {
-  EXPECT_THROW(write_json("/nonexistent/a.json", {}), std::exception);
-}
-
 }  // namespace
 }  // namespace navvi_files

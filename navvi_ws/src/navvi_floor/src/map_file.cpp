@@ -1,11 +1,10 @@
 #include "navvi_floor/map_file.hpp"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <navvi_config/reader.hpp>
 #include <optional>
 #include <sstream>
@@ -98,92 +97,28 @@ struct Picture {
   std::string pixels;
 };
 
-/// Takes the mean of the three colours of each pixel.
-Picture grey(Picture picture) {
-  const auto color = [&](std::size_t i) { return static_cast<unsigned char>(picture.pixels[i]); };
-  for (std::size_t i = 0; i < picture.pixels.size() / 3; ++i)
-    picture.pixels[i] = static_cast<char>((color(3 * i) + color(3 * i + 1) + color(3 * i + 2)) / 3);
-  picture.pixels.resize(picture.pixels.size() / 3);
-  return picture;
-}
-
-/// Reads the next number of a PGM or PPM picture; comments run from # to the end of the line.
-std::optional<std::size_t> next_number(const std::string& bytes, std::size_t& at) {
-  while (at < bytes.size() &&
-         (std::isspace(static_cast<unsigned char>(bytes[at])) || bytes[at] == '#')) {
-    if (bytes[at] == '#') {
-      while (at < bytes.size() && bytes[at] != '\n') ++at;
-    } else {
-      ++at;
-    }
-  }
-  std::size_t value = 0;
-  const std::size_t begin = at;
-  for (; at < bytes.size() && at < begin + 9 && std::isdigit(static_cast<unsigned char>(bytes[at]));
-       ++at)
-    value = 10 * value + static_cast<std::size_t>(bytes[at] - '0');
-  if (at == begin) return {};
-  return value;
-}
-
-/// The numbers of a picture's pixels, from text or bytes; fewer than `count` if it ends before.
-std::string samples_of(const std::string& bytes, std::size_t at, std::size_t count, bool is_text) {
-  if (!is_text) return bytes.substr(std::min(bytes.size(), at + 1), count);  // one white space
-  std::string samples;
-  while (samples.size() < count) {
-    const auto number = next_number(bytes, at);
-    if (!number || *number > 255) break;
-    samples += static_cast<char>(*number);
-  }
-  return samples;
-}
-
-/// A picture of grey (P2, P5) or of colours (P3, P6), as text or in bytes.
-Picture read_netpbm(const std::string& path, const std::string& bytes) {
-  std::size_t at = 2;
-  const char kind = bytes.size() > 2 && bytes[0] == 'P' ? bytes[1] : ' ';
-  const bool known = kind == '2' || kind == '3' || kind == '5' || kind == '6';
-  const auto width = known ? next_number(bytes, at) : std::nullopt;
-  const auto height = known ? next_number(bytes, at) : std::nullopt;
-  const auto white = known ? next_number(bytes, at) : std::nullopt;
-  if (!width || !height || !white || *white == 0 || *white > 255)
-    throw FileError(path +
-                    ": this is neither a PNG picture nor a PGM or PPM picture of up to 255 levels "
-                    "(P2, P3, P5, P6); ImageMagick's convert makes one of most others");
-  const std::size_t colors = kind == '3' || kind == '6' ? 3 : 1;
-  Picture out{*width, *height, static_cast<double>(*white), {}};
-  const bool fits = *width <= kMaxPictureSide && *height <= kMaxPictureSide;
-  const std::size_t pixels = fits ? *width * *height : 0;
-  if (pixels > 0 && pixels <= bytes.size())
-    out.pixels = samples_of(bytes, at, colors * pixels, kind < '4');
-  if (pixels == 0 || out.pixels.size() < colors * pixels)
-    throw FileError(path + ": the picture should have " + std::to_string(*width) + " x " +
-                    std::to_string(*height) + " pixels, and it has not; 32768 a side are allowed");
-  return colors == 3 ? grey(std::move(out)) : out;
-}
-
-Picture read_png(const std::string& path, const std::string& bytes) {
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  const auto fail = [&](const std::string& why) {
-    png_image_free(&image);
-    throw FileError(path + ": this PNG picture cannot be read: " + why);
-  };
-  if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0)
-    fail(image.message);
-  if (image.width > kMaxPictureSide || image.height > kMaxPictureSide ||
-      std::size_t{image.width} * image.height > kMaxPicture)
-    fail("it is larger than 64 million pixels, or than 32768 a side");
-  image.format = PNG_FORMAT_RGB;
-  std::string colors(PNG_IMAGE_SIZE(image), '\0');
-  const png_color white{255, 255, 255};
-  if (png_image_finish_read(&image, &white, colors.data(), 0, nullptr) == 0) fail(image.message);
-  return grey({image.width, image.height, 255.0, std::move(colors)});
-}
-
+/// A PGM picture of bytes (P5); comments run from # to the end of the line.
 Picture read_picture(const std::string& path) {
   const std::string bytes = load(path, kMaxPicture);
-  return bytes.rfind("\x89PNG", 0) == 0 ? read_png(path, bytes) : read_netpbm(path, bytes);
+  std::istringstream stream(bytes);
+  std::string kind;
+  std::size_t numbers[3] = {};
+  stream >> std::setw(3) >> kind;
+  for (std::size_t& number : numbers) {
+    while ((stream >> std::ws).peek() == '#') stream.ignore(bytes.size(), '\n');
+    stream >> number;
+  }
+  const auto [width, height, white] = numbers;
+  if (kind != "P5" || !stream || white == 0 || white > 255)
+    throw FileError(path + ": this is not a PGM picture of bytes (P5) of up to 255 levels");
+  const bool fits = width <= kMaxPictureSide && height <= kMaxPictureSide;
+  stream.get();  // one white space
+  Picture out{width, height, static_cast<double>(white), {}};
+  if (fits && stream) out.pixels = bytes.substr(static_cast<std::size_t>(stream.tellg()));
+  if (out.pixels.empty() || out.pixels.size() < width * height)
+    throw FileError(path + ": the picture should have " + std::to_string(width) + " x " +
+                    std::to_string(height) + " pixels, and it has not; 32768 a side are allowed");
+  return out;
 }
 
 struct GridDescription {
@@ -197,7 +132,7 @@ struct GridDescription {
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Range;
-    visit(image, "image", navvi_config::Any{}, "", "a PNG, PGM or PPM picture");
+    visit(image, "image", navvi_config::Any{}, "", "a PGM picture of bytes");
     visit(resolution, "resolution", Range{kMinResolution, kMaxResolution}, "m", "side of a pixel");
     visit(origin, "origin", navvi_config::Any{}, "m, m, rad", "lower left corner: x, y, yaw");
     visit(negate, "negate", Range{0.0, 1.0}, "", "1: white is occupied");
@@ -246,7 +181,7 @@ Voxels read_octomap_file(const std::string& path) {
   return out;
 }
 
-GridFile read_grid_file(const std::string& path) {
+GridFile read_grid_file(const std::string& path, const std::string& instead) {
   try {
     GridDescription how;
     YAML::Node used;
@@ -274,13 +209,15 @@ GridFile read_grid_file(const std::string& path) {
     const auto beside = std::filesystem::path(path).parent_path() / picture.filename();
     if (!std::filesystem::exists(picture, failed) && std::filesystem::exists(beside, failed))
       picture = beside;
+    if (!instead.empty()) picture = instead;
     return {{}, grid_of(how, read_picture(picture.string())), unused};
   } catch (const std::runtime_error& error) {  // FileError or ConfigError
     return {error.what(), {}, {}};
   }
 }
 
-MapSurvey survey_file(const std::string& path, const SurveyConfig& config) {
+MapSurvey survey_file(const std::string& path, const SurveyConfig& config,
+                      const std::string& picture) {
   const std::string ending = std::filesystem::path(path).extension().string();
   MapSurvey out;
   if (ending == ".bt" || ending == ".ot") {
@@ -290,7 +227,7 @@ MapSurvey survey_file(const std::string& path, const SurveyConfig& config) {
     out = survey_map(voxels, config);
     out.source = voxels.source;
   } else if (ending == ".yaml" || ending == ".yml") {
-    const GridFile file = read_grid_file(path);
+    const GridFile file = read_grid_file(path, picture);
     out.error = file.error;
     if (!out.error.empty()) return out;
     out = read_grid(file.grid, config);

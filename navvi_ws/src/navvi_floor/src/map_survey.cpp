@@ -9,7 +9,6 @@
 #include "floor_rules.hpp"
 #include "navvi_floor/resample.hpp"
 #include "part_survey.hpp"
-#include "survey_record.hpp"
 
 namespace navvi_floor {
 namespace {

@@ -6,9 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 namespace navvi_nav::plain {
 namespace {
+
+constexpr int kMaxNodes = 65535;                // the most that Detour can count
+constexpr int kMaxPolygons = 16384;             // of one path
+constexpr double kRounding = 1e-6;              // of a cell
+constexpr float kFloor = 0.0F;                  // m, Recast's y
+constexpr float kNear[3] = {0.5F, 0.3F, 0.5F};  // m, findNearestPoly's half extents
 
 constexpr int kLayers = 4;  // of a tile
 constexpr int kMaxObstacles = 4096;
@@ -19,6 +26,121 @@ using Layers = std::unique_ptr<rcHeightfieldLayerSet,
                                Release<rcHeightfieldLayerSet, rcFreeHeightfieldLayerSet>>;
 
 }  // namespace
+
+void require(bool done, const char* step) {
+  if (!done) throw std::runtime_error(std::string("the plain bake failed in ") + step);
+}
+
+Columns::Columns(const octomap::OcTree& tree) : cell_(tree.getResolution()) {
+  std::array<double, 3> high{};
+  tree.getMetricMin(low_[0], low_[1], low_[2]);
+  tree.getMetricMax(high[0], high[1], high[2]);
+  const auto cells = [this](double length) {
+    return static_cast<int>(std::lround(length / cell_));
+  };
+  width_ = cells(high[0] - low_[0]);
+  height_ = cells(high[1] - low_[1]);
+  levels_ = cells(high[2] - low_[2]);
+  // Twice over the leaves: the spans of each cell are counted, then put in their place.
+  const auto each_span = [&](const auto& visit) {
+    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+      if (!tree.isNodeOccupied(*leaf)) continue;
+      const double half = leaf.getSize() / 2.0;
+      const int x = cells(leaf.getX() - half - low_[0]), y = cells(leaf.getY() - half - low_[1]);
+      const int bottom = cells(leaf.getZ() - half - low_[2]), side = cells(leaf.getSize());
+      const Span span{static_cast<unsigned short>(bottom),
+                      static_cast<unsigned short>(bottom + side)};
+      for (int row = y; row < y + side; ++row)
+        for (int column = x; column < x + side; ++column) visit(index(column, row), span);
+    }
+  };
+  begin_.assign(index(0, height_) + 2, 0);
+  each_span([this](std::size_t cell, Span) { ++begin_[cell + 2]; });
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  spans_.resize(begin_.back());
+  each_span([this](std::size_t cell, Span span) { spans_[begin_[cell + 1]++] = span; });
+  begin_.pop_back();
+}
+
+std::size_t Columns::index(int x, int y) const {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+         static_cast<std::size_t>(x);
+}
+
+std::array<float, 3> Columns::low() const {
+  return {static_cast<float>(low_[0]), static_cast<float>(low_[2]), static_cast<float>(low_[1])};
+}
+
+HeightField Columns::window(rcContext& context, int x, int y, int columns, int rows) const {
+  const float low[3] = {static_cast<float>(low_[0] + x * cell_), static_cast<float>(low_[2]),
+                        static_cast<float>(low_[1] + y * cell_)};
+  const float high[3] = {static_cast<float>(low_[0] + (x + columns) * cell_),
+                         static_cast<float>(low_[2] + levels_ * cell_),
+                         static_cast<float>(low_[1] + (y + rows) * cell_)};
+  HeightField field(rcAllocHeightfield());
+  require(field && rcCreateHeightfield(&context, *field, columns, rows, low, high,
+                                       static_cast<float>(cell_), static_cast<float>(cell_)),
+          "rcCreateHeightfield");
+  for (int row = std::max(0, y); row < std::min(height_, y + rows); ++row) {
+    for (int column = std::max(0, x); column < std::min(width_, x + columns); ++column) {
+      for (auto i = begin_[index(column, row)]; i < begin_[index(column, row) + 1]; ++i)
+        rcAddSpan(&context, *field, column - x, row - y, spans_[i].bottom, spans_[i].top,
+                  RC_WALKABLE_AREA, 0);
+    }
+  }
+  return field;
+}
+
+CompactField walkable(rcContext& context, HeightField heights, double robot_radius,
+                      double robot_height) {
+  const double cell = static_cast<double>(heights->cs);
+  const auto whole = [cell](double length) {
+    return static_cast<int>(std::ceil(length / cell - kRounding));
+  };
+  rcFilterWalkableLowHeightSpans(&context, whole(robot_height), *heights);
+  CompactField field(rcAllocCompactHeightfield());
+  require(field && rcBuildCompactHeightfield(&context, whole(robot_height), 0, *heights, *field),
+          "rcBuildCompactHeightfield");
+  heights.reset();
+  require(rcErodeWalkableArea(&context, whole(robot_radius), *field), "rcErodeWalkableArea");
+  return field;
+}
+
+Query::Query(const dtNavMesh& mesh)
+    : query_(dtAllocNavMeshQuery()), corridor_(kMaxPolygons), corners_(3 * kMaxPolygons) {
+  require(dtStatusSucceed(query_->init(&mesh, kMaxNodes)), "dtNavMeshQuery::init");
+}
+
+bool Query::locate(Point start, Point goal) {
+  const std::array<Point, 2> wanted{start, goal};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const float center[3] = {static_cast<float>(wanted[i].x), kFloor,
+                             static_cast<float>(wanted[i].y)};
+    query_->findNearestPoly(center, kNear, &filter_, &ends_[i], points_[i].data());
+  }
+  return ends_[0] != 0 && ends_[1] != 0;
+}
+
+Path Query::search() {
+  const float* from = points_[0].data();
+  const float* to = points_[1].data();
+  int polygons = 0;
+  const dtStatus found = query_->findPath(ends_[0], ends_[1], from, to, &filter_, corridor_.data(),
+                                          &polygons, kMaxPolygons);
+  if (dtStatusFailed(found) || dtStatusDetail(found, DT_PARTIAL_RESULT)) return {};
+  int count = 0;
+  const dtStatus drawn =
+      query_->findStraightPath(from, to, corridor_.data(), polygons, corners_.data(), nullptr,
+                               nullptr, &count, kMaxPolygons);
+  if (dtStatusFailed(drawn)) return {};
+  Path path;
+  path.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const float* corner = &corners_[static_cast<std::size_t>(3 * i)];
+    path.push_back({static_cast<double>(corner[0]), static_cast<double>(corner[2])});
+  }
+  return path;
+}
 
 /// Hands out one block bit by bit; a tile's building takes it from the start again.
 struct TileCache::Arena : dtTileCacheAlloc {

@@ -2,6 +2,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -10,6 +11,13 @@
 #include "navvi_sim/scenario/scenario.hpp"
 
 namespace navvi_sim::bench {
+
+/// A square hall of cells of 9 x 9 m. Each may hold a loaded shelf and, driving around it, a pallet
+/// robot; neighbours share the lane between their shelves. Those nearest to the middle come first.
+/// \param cells    along each side
+/// \param shelves  at most cells squared
+/// \param movers   at most cells squared
+[[nodiscard]] WorldDescription hall(int cells, std::size_t shelves, std::size_t movers);
 
 /// Bullet used plainly on the bodies of a world: what a step costs without World. Movers run along
 /// their routes at full speed and mind nobody; nothing is asked of the world but to step. Bounds

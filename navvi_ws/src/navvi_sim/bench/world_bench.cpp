@@ -10,7 +10,6 @@
 #include <navvi_types/msg_conversion.hpp>
 
 #include "bare_bullet.hpp"
-#include "hall.hpp"
 #include "medians.hpp"
 #include "navvi_sim/live/world.hpp"
 #include "navvi_sim/node/msg_conversion.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/events.hpp"
 #include "core/guide_parts.hpp"
-#include "lead/flow.hpp"
+#include "lead/course.hpp"
 
 namespace navvi_feedback::core {
 namespace {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "cues/near_words.hpp"
-#include "cues/problem.hpp"
+#include "cues/state_cues.hpp"
 #include "cues/way_words.hpp"
 
 namespace navvi_feedback::cues {

@@ -7,6 +7,52 @@
 #include "cues/clock_face.hpp"
 
 namespace navvi_feedback::cues {
+namespace {
+
+/// m/s; a slower robot is about to turn on the spot.
+constexpr double kDrives = 0.1;
+
+/// s; a person who begins by themselves does so within that.
+constexpr double kStill = 3.0;
+/// m/s and rad/s; a command below these is neutral.
+constexpr Velocity kNeutral{0.02, 0.05};
+
+}  // namespace
+
+bool drives_on(const Observation& now) { return now.measured && now.measured->linear > kDrives; }
+
+std::optional<CueKind> straying(const Observation& now, std::optional<CueKind> was,
+                                const StrayConfig& config) {
+  if (drives_on(now) && std::abs(now.guidance->steer_angle) > config.kWrongWayDegrees * kDegree)
+    return CueKind::wrong_way;
+  const double limit = was == CueKind::off_path ? config.kOnPath : config.kOffPath;
+  return now.guidance->path_offset > limit ? std::optional(CueKind::off_path) : std::nullopt;
+}
+
+void Stray::observe(const Observation& now, const StrayConfig& config, double time) {
+  const std::optional<CueKind> strays = straying(now, kind, config);
+  if (strays != kind) *this = {strays, time, std::nullopt};
+}
+
+bool Stray::due(const Observation& now, const StrayConfig& config, double time) const {
+  return kind && time - since >= config.kAfter && drives_on(now) &&
+         (!said || time - *said >= config.kRepeat);
+}
+
+void StillHand::observe(const Observation& now, double time) {
+  const bool drives = std::abs(now.commanded.linear) > kNeutral.linear;
+  const bool turns = std::abs(now.commanded.angular) > kNeutral.angular;
+  driven = driven || drives;
+  const bool in_vain = now.stick_held_unarmed || now.stick_disabled;  // HeldStick says what helps
+  if (drives || turns || in_vain || now.voice_busy)
+    since.reset();
+  else if (!since)
+    since = time;
+}
+
+bool StillHand::due(double time, double again) const {
+  return !driven && since && time - *since >= kStill && !(urged && time - *urged < again);
+}
 
 void ToldRoutes::tell(std::uint32_t reroutes) { before = std::exchange(told, reroutes); }
 

@@ -4,8 +4,7 @@
 
 #include <map>
 
-#include "devices/earcon_player.hpp"
-#include "devices/heard.hpp"
+#include "heard.hpp"
 
 namespace navvi_feedback::devices {
 namespace {

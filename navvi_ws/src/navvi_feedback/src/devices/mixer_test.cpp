@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "devices/heard.hpp"
+#include "heard.hpp"
 
 namespace navvi_feedback::devices {
 namespace {

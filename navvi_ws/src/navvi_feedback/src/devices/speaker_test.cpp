@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "devices/device_error.hpp"
-#include "devices/heard.hpp"
+#include "heard.hpp"
 #include "devices/speech_channel.hpp"
 
 namespace navvi_feedback::devices {

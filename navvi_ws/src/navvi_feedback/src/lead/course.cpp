@@ -46,6 +46,12 @@ double away(const std::vector<NearThing>& nearby) {
 
 }  // namespace
 
+haptics::Rumble flow_of(const Course& course) {
+  const double sum = kSlowest + (1.0 - kSlowest) * std::clamp(course.speed, 0.0, 1.0);
+  const double lean = std::clamp(course.turn / kFullTurn, -1.0, 1.0);
+  return {0.5 * sum * (1.0 - lean), 0.5 * sum * (1.0 + lean)};
+}
+
 std::optional<Course> Pilot::update(std::optional<double> off,
                                     const std::vector<NearThing>& nearby, double speed,
                                     double full, double time) {

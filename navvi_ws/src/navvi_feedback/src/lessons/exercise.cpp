@@ -5,7 +5,6 @@
 #include <navvi_types/angles.hpp>
 
 #include "lessons/guide_exercises.hpp"
-#include "lessons/word.hpp"
 
 namespace navvi_feedback::lessons {
 namespace {

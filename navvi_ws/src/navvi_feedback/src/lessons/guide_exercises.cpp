@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "lessons/word.hpp"
-
 namespace navvi_feedback::lessons {
 namespace {
 

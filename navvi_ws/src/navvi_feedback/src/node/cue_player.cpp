@@ -7,7 +7,7 @@
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
 
-#include "devices/earcon_player.hpp"
+#include "devices/earcons.hpp"
 #include "devices/gamepad.hpp"
 #include "devices/speaker.hpp"
 #include "haptics/rumble_output.hpp"

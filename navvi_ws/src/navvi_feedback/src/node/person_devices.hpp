@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/earcon_player.hpp"
+#include "devices/earcons.hpp"
 #include "devices/input_source.hpp"
 #include "devices/latencies.hpp"
 #include "devices/mixer.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,8 +17,5 @@ using JsonFields = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string json_list(const std::vector<std::string>& values);
 /// In the order of the fields.
 [[nodiscard]] std::string json_object(const JsonFields& fields);
-
-/// Throws ConfigError where the file cannot be written.
-void write_json(const std::filesystem::path& path, const JsonFields& fields);
 
 }  // namespace navvi_files

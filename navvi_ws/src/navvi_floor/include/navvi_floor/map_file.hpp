@@ -18,11 +18,13 @@ struct GridFile {
   std::string source;  ///< what of the file is not used; may be empty
 };
 
-/// A map_server map: a `.yaml` file that names a PNG or PGM picture beside it. Of map_server's
+/// A map_server map: a `.yaml` file that names a picture beside it, a PGM of bytes. Of map_server's
 /// modes the usual one, trinary, is read. Unknown keys are not used, as by map_server.
-[[nodiscard]] GridFile read_grid_file(const std::string& path);
+/// \param picture  read in place of the one that the file names; empty: that one
+[[nodiscard]] GridFile read_grid_file(const std::string& path, const std::string& picture = {});
 
-/// \param path  of a .bt, .ot or .yaml file
-[[nodiscard]] MapSurvey survey_file(const std::string& path, const SurveyConfig& config);
+/// \param path  of a .bt, .ot or .yaml file \param picture  as for read_grid_file()
+[[nodiscard]] MapSurvey survey_file(const std::string& path, const SurveyConfig& config,
+                                    const std::string& picture = {});
 
 }  // namespace navvi_floor

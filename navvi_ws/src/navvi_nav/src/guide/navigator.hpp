@@ -11,7 +11,6 @@
 #include "guide/observation.hpp"
 #include "guide/path_keeper.hpp"
 #include "guide/replan_trigger.hpp"
-#include "guide/second_ask.hpp"
 #include "plan/planner.hpp"
 
 namespace navvi_nav::guide {

@@ -3,11 +3,35 @@
 namespace navvi_nav::guide {
 namespace {
 
+constexpr double kSameGoal = 0.5;  // m
+
+bool same(Point a, Point b) { return distance(a, b) <= kSameGoal; }
+
 constexpr double kMoved = 0.1;  // m, an obstacle that moved less has not left its place
 constexpr double kStray = 0.5;  // m, a robot farther off its path strayed
 constexpr double kHole = 0.2;   // m, of a hole beyond the obstacle and the robot on its rim
 
 }  // namespace
+
+bool SecondAsk::agrees(Point goal, double stamp) {
+  if (agreed_ && stamp == agreed_->stamp && same(goal, agreed_->place)) return true;
+  if (!refused_ || !(stamp > refused_->stamp)) return false;
+  const bool again = same(goal, refused_->place);
+  refused_.reset();
+  if (again) agreed_ = {goal, stamp};
+  return again;
+}
+
+void SecondAsk::refused(Point goal, Guidance::Refusal why, double heard) {
+  if (agreed_ && same(goal, agreed_->place)) agreed_.reset();
+  if (why == Guidance::Refusal::not_seen || why == Guidance::Refusal::off_the_map)
+    refused_ = {goal, heard};
+}
+
+void SecondAsk::reset() {
+  refused_.reset();
+  agreed_.reset();
+}
 
 void ReplanTriggerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;

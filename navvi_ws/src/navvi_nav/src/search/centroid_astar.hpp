@@ -1,11 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "geometry.hpp"
 #include "mesh/mesh.hpp"
-#include "search/found.hpp"
 
 namespace navvi_nav::search {
+
+struct Found {
+  bool found = false;
+  Path path;            ///< from start to goal; one point if they are the same
+  double length = 0.0;  ///< m
+  std::size_t nodes_expanded = 0;
+};
 
 /// A* on graph G (R-NAV-6): nodes are polygon centroids, edges join neighbours, and
 /// f = g + alpha * Euclidean distance to the goal. With alpha <= 1 the heuristic is admissible and

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "search/dominance_table.hpp"
-#include "search/open_list.hpp"
 #include "search/search_node.hpp"
 
 namespace navvi_nav::search {

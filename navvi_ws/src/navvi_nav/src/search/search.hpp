@@ -1,7 +1,7 @@
 #pragma once
 
 #include "mesh/mesh.hpp"
-#include "search/found.hpp"
+#include "search/centroid_astar.hpp"
 #include "search/polyanya.hpp"
 
 namespace navvi_nav::search {

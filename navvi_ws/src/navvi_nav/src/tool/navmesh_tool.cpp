@@ -34,7 +34,7 @@ const std::vector<std::string> kStages = {"map", "bake", "mesh", "search", "smoo
 struct ToolConfig {
   guide::NavigatorConfig navigator;
   std::string stage_name = "smooth";
-  std::string config;
+  std::string config, picture;
   std::vector<double> from, to, cylinders;
   bool drawing = false;
 
@@ -44,6 +44,7 @@ struct ToolConfig {
     visit(stage_name, "stage", navvi_config::OneOf{kStages}, "",
           "the last one: map, bake, mesh (holes), search (shortest path) or smooth");
     visit(config, "config", Any{}, "", "a YAML file of parameters, like those of nav_node");
+    visit(picture, "picture", Any{}, "", "a PGM in place of the one that a .yaml map names");
     visit(from, "from", Any{}, "m", "[x, y] where a path begins, in map");
     visit(to, "to", Any{}, "m", "[x, y] where it ends");
     visit(cylinders, "cylinders", Any{}, "m", "[x, y, radius, ...] of what moves, cut out");
@@ -202,7 +203,7 @@ int run(const std::vector<std::string>& words) {
   const ToolConfig config = read_config({words.begin() + 1, words.end()});
   Stopwatch watch;
   const map::MapSurvey survey =
-      map::survey_file(file, plan::survey_config(config.navigator.planner.mesh));
+      map::survey_file(file, plan::survey_config(config.navigator.planner.mesh), config.picture);
   if (!survey.error.empty()) throw ConfigError(survey.error);
   const std::string surveyed = watch.lap();
   plan::Planner planner(config.navigator.planner);

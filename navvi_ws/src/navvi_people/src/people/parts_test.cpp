@@ -338,9 +338,14 @@ TEST(Types, stand_in_the_document_as_they_are_in_the_code) {
   std::ifstream file(NAVVI_PEOPLE_TABLE);
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_NE(text.str().find(traits_table()), std::string::npos)
-      << "put this into " << NAVVI_PEOPLE_TABLE << ":\n"
-      << traits_table();
+  for (const Trait& trait : traits()) {
+    std::ostringstream row;
+    row << "\n| " << trait.name << " | " << trait.able << " | " << trait.typical << " | "
+        << trait.struggling << " | " << trait.between << " | " << (*trait.unit ? trait.unit : "-")
+        << " | ";
+    EXPECT_NE(text.str().find(row.str()), std::string::npos)
+        << NAVVI_PEOPLE_TABLE << " lacks a row that begins with" << row.str();
+  }
 }
 
 }  // namespace

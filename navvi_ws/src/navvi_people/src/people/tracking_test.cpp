@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "navvi_people/people/pulses.hpp"
-
 namespace navvi_people::people {
 namespace {
 

@@ -8,7 +8,7 @@
 
 namespace navvi_people::people {
 
-/// A trait in which people differ, and what is known of it.
+/// A trait in which people differ; doc/people.md tells the source of its numbers.
 struct Trait {
   const char* name;  ///< of the parameter
   double& (*of)(SimulatedOperatorConfig&);
@@ -16,9 +16,6 @@ struct Trait {
   /// Of the drawn: lognormal around the typical with this standard deviation of the logarithm.
   double between;
   const char* unit;
-  const char* source;   ///< publication, or "assumed"
-  const char* people;   ///< who was measured
-  const char* carried;  ///< over to a stick
 };
 
 [[nodiscard]] const std::vector<Trait>& traits();
@@ -27,10 +24,7 @@ struct Trait {
 [[nodiscard]] const std::vector<std::string>& person_types();
 
 /// Gives a person the traits of its type; `drawn` ones are drawn from its seed: persons first, then
-/// what each does. \param share  true: a share stays below 1
+/// what each does.
 void become(SimulatedOperatorConfig& config, const std::string& type, int seed);
-
-/// The table of doc/people.md, in Markdown.
-[[nodiscard]] std::string traits_table();
 
 }  // namespace navvi_people::people

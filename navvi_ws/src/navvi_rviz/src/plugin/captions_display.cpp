@@ -18,10 +18,9 @@
 #include <navvi_types/angles.hpp>
 #include <navvi_types/transform_listener.hpp>
 
-#include "look/solids.hpp"
+#include "look/skyline.hpp"
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
-#include "plugin/views.hpp"
 
 namespace navvi_rviz::plugin {
 namespace {

@@ -1,9 +1,25 @@
 #pragma once
 
+#include <QLabel>
 #include <QLayout>
 #include <QList>
 
 namespace navvi_rviz::plugin {
+
+/// Words on a fixed number of lines: words that need more have smaller letters, so that nothing is
+/// cut and nothing beside it moves.
+class WordsLabel : public QLabel {
+ public:
+  explicit WordsLabel(int lines) : lines_(lines) {}
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override { return {0, sizeHint().height()}; }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  int lines_;
+};
 
 /// Widgets side by side, in as many rows as they need; each row is filled. No widget is cut as long
 /// as the widest has room.

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <rviz/display_context.h>
+
 #include <QImage>
 #include <QString>
 
 #include "look/vision.hpp"
 
 namespace navvi_rviz::plugin {
+
+/// Makes the saved view of that name, in any case of letters, the current one, if there is one.
+void choose_view(rviz::DisplayContext& context, const QString& name);
 
 [[nodiscard]] QColor color(const look::Color& color);
 

@@ -23,8 +23,7 @@
 
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
-#include "plugin/views.hpp"
-#include "plugin/words_label.hpp"
+#include "plugin/flow_layout.hpp"
 
 namespace navvi_rviz::plugin {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "status/steady_banner.hpp"
+#include "status/status.hpp"
 
 namespace navvi_rviz::plugin {
 

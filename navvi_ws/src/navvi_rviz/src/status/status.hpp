@@ -1,16 +1,40 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <navvi_types/cue_event.hpp>
+#include <navvi_types/cue_kind.hpp>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
 #include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
 
-#include "status/words.hpp"
-
 namespace navvi_rviz::status {
+
+/// The words of the picture, as the phrase file of the session has them.
+class Words {
+ public:
+  Words() = default;
+  /// \throws navvi_config::ConfigError if it cannot be read
+  /// \param units  of lengths: meters or feet
+  explicit Words(const std::filesystem::path& phrases, std::string units = "meters");
+
+  /// \param key  section and key, such as "picture/wait"; empty: the file lacks it
+  [[nodiscard]] std::string of(const std::string& key) const;
+  /// What is said of this kind of cue, where nothing else is put into it.
+  /// \param keyboard  the hands are on the arrow keys
+  [[nodiscard]] std::string said(navvi_types::CueKind kind, bool keyboard) const;
+
+  /// What is left to the goal, rounded as the voice does.
+  /// \param metres  finite, >= 0
+  [[nodiscard]] std::string to_go(double metres) const;
+
+ private:
+  std::string units_;
+  std::map<std::string, std::string> texts_;
+};
 
 /// What a person reads at a glance.
 struct Shown {
@@ -83,6 +107,19 @@ class Status {
   double speed_ = 0.0;
   std::optional<double> begun_, ended_;  ///< s, ROS time
   std::optional<double> silent_;         ///< since when nothing can be heard
+};
+
+/// Keeps each banner, and each while without one, for 0.35 s: what is large and bright must not
+/// flash more than three times a second (WCAG 2, 2.3.1).
+class SteadyBanner {
+ public:
+  /// \param time  s, never less than before
+  /// \return what is shown, with the banner that holds
+  [[nodiscard]] Shown hold(Shown shown, double time);
+
+ private:
+  std::optional<Shown> last_;
+  double since_ = 0.0;  ///< s, when its banner began
 };
 
 }  // namespace navvi_rviz::status

@@ -5,7 +5,6 @@
 
 #include "description/footprint.hpp"
 #include "description/hash.hpp"
-#include "physics/contact_counter.hpp"
 #include "physics/drivetrain.hpp"
 #include "physics/physics.hpp"
 #include "physics/proximity.hpp"

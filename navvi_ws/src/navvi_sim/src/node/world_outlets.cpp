@@ -2,6 +2,7 @@
 
 #include <rosgraph_msgs/Clock.h>
 
+#include <algorithm>
 #include <navvi_types/msg_conversion.hpp>
 
 #include "navvi_sim/description/world_hash.hpp"
@@ -9,6 +10,60 @@
 #include "navvi_sim/occupancy/occupancy.hpp"
 
 namespace navvi_sim::node {
+namespace {
+
+// What moves in the picture, for a bag that RViz shows without us: seldom, that it stays small.
+constexpr double kRecordedPeriod = 0.5;     // s
+constexpr double kRecordedMarkers = 400.0;  // a second, at most
+
+}  // namespace
+
+Picture::Picture(ros::NodeHandle& node, const WorldDescription& world,
+                 const physics::RobotConfig& robot, const occupancy::OccupancyMap& map,
+                 const live::Session& session)
+    : session_(session), looks_(world, robot) {
+  // Large and seldom looked at: made for each subscriber.
+  cells_ = node.advertise<visualization_msgs::MarkerArray>(
+      "occupied_cells_vis_array", 1, [this, &map](const ros::SingleSubscriberPublisher& listener) {
+        listener.publish(occupied_cells_msg(map, stamp()));
+      });
+  standing_ = node.advertise<visualization_msgs::MarkerArray>("navvi/scene", 1, true);
+  moving_ = node.advertise<visualization_msgs::MarkerArray>("navvi/scene_moving", 1);
+  recorded_ = node.advertise<visualization_msgs::MarkerArray>("navvi/scene_recorded", 1);
+}
+
+void Picture::publish_standing() { standing_.publish(looks_.standing(stamp())); }
+
+void Picture::publish_moving() {
+  const live::Snapshot& now = session_.world().now();
+  const visualization_msgs::MarkerArray& scene = looks_.moving(now, stamp());
+  moving_.publish(scene);
+  if (now.time < next_recorded_) return;
+  recorded_.publish(scene);
+  const auto markers = static_cast<double>(scene.markers.size());
+  next_recorded_ = now.time + std::max(kRecordedPeriod, markers / kRecordedMarkers);
+}
+
+RepetitionRecord::RepetitionRecord(ros::NodeHandle& node, const live::Session& session)
+    : session_(session) {
+  // A subscriber that comes in mid-session can still repeat it from its first step.
+  applied_ = node.advertise<navvi_msgs::AppliedCommands>(
+      "navvi/applied_commands", 1000, [this](const ros::SingleSubscriberPublisher& listener) {
+        listener.publish(applied_commands_msg(session_.commands(), 0, stamp()));
+      });
+  hash_ = node.advertise<navvi_msgs::StateHash>("navvi/state_hash", 1, true);
+}
+
+void RepetitionRecord::publish() {
+  if (commands_published_ < session_.commands().size()) {
+    applied_.publish(applied_commands_msg(session_.commands(), commands_published_, stamp()));
+    commands_published_ = session_.commands().size();
+  }
+  if (hashes_published_ < session_.hashes().size()) {
+    hash_.publish(navvi_types::to_msg(session_.hashes().back()));
+    hashes_published_ = session_.hashes().size();
+  }
+}
 
 WorldOutlets::WorldOutlets(ros::NodeHandle& node, const setup::SimNodeConfig& config,
                            const WorldDescription& world, const occupancy::OccupancyMap& map,

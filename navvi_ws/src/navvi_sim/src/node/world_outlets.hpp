@@ -4,6 +4,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <cstddef>
 #include <navvi_types/drive_state.hpp>
 #include <optional>
 #include <vector>
@@ -11,11 +12,49 @@
 #include "navvi_sim/live/session.hpp"
 #include "navvi_sim/occupancy/occupancy_map.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
+#include "navvi_sim/scene/scene.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
-#include "node/picture.hpp"
-#include "node/repetition_record.hpp"
 
 namespace navvi_sim::node {
+
+/// The topics by which RViz shows the world.
+class Picture {
+ public:
+  /// \param map, session  outlive this
+  Picture(ros::NodeHandle& node, const WorldDescription& world, const physics::RobotConfig& robot,
+          const occupancy::OccupancyMap& map, const live::Session& session);
+
+  /// What stands still: once.
+  void publish_standing();
+  /// What moves.
+  void publish_moving();
+
+ private:
+  [[nodiscard]] ros::Time stamp() const { return ros::Time(session_.world().now().time); }
+
+  const live::Session& session_;
+  scene::Scene looks_;
+  ros::Publisher cells_, standing_, moving_, recorded_;
+  double next_recorded_ = 0.0;  ///< s, of the simulation
+};
+
+/// The topics that repeat this world, and that prove that the repetition is the same.
+class RepetitionRecord {
+ public:
+  /// \param session  outlives this
+  RepetitionRecord(ros::NodeHandle& node, const live::Session& session);
+
+  /// What is new since the last call.
+  void publish();
+
+ private:
+  [[nodiscard]] ros::Time stamp() const { return ros::Time(session_.world().now().time); }
+
+  const live::Session& session_;
+  ros::Publisher applied_, hash_;
+  std::size_t commands_published_ = 0;
+  std::size_t hashes_published_ = 0;
+};
 
 /// The topics and transforms by which sim_node tells its world; a robot's sensors are beside it.
 class WorldOutlets {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "navvi_sim/description/mover_state.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "physics/bodies.hpp"
 #include "physics/hull_gap.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "navvi_sim/description/mover_state.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "physics/bodies.hpp"
 
 namespace navvi_sim::physics {

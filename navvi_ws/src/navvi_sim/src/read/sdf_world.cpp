@@ -8,12 +8,10 @@
 #include "description/validate.hpp"
 #include "generate/furniture.hpp"
 #include "read/sdf_files.hpp"
-#include "read/sdf_frames.hpp"
 #include "read/sdf_geometry.hpp"
 #include "read/sdf_motion.hpp"
 #include "read/sdf_own.hpp"
 #include "read/sdf_things.hpp"
-#include "read/sdf_traffic.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {

@@ -9,7 +9,6 @@
 #include <sstream>
 
 #include "traffic/lane_ground.hpp"
-#include "traffic/polygon_index.hpp"
 #include "traffic/waiting_zones.hpp"
 
 namespace navvi_sim::traffic {

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "traffic/lane_ground.hpp"
-#include "traffic/polygon_index.hpp"
 
 namespace navvi_sim::traffic {
 namespace {

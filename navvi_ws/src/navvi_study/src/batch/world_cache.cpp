@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "trial/platform.hpp"
+#include "trial/conditions.hpp"
 
 namespace navvi_study::batch {
 namespace {

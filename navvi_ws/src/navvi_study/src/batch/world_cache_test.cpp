@@ -14,7 +14,7 @@
 
 #include "batch/loop_trial.hpp"
 #include "temp_folder.hpp"
-#include "trial/platform.hpp"
+#include "trial/conditions.hpp"
 
 namespace navvi_study::batch {
 namespace {

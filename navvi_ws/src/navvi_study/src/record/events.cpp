@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdio>
 
-#include "record/csv.hpp"
+#include "record/row.hpp"
 
 namespace navvi_study::record {
 namespace {

@@ -8,7 +8,7 @@
 #include <map>
 #include <navvi_types/angles.hpp>
 
-#include "record/csv.hpp"
+#include "record/row.hpp"
 #include "record/driven.hpp"
 #include "record/told.hpp"
 

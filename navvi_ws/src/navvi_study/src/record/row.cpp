@@ -11,6 +11,13 @@
 namespace navvi_study::record {
 namespace {
 
+std::string quoted(const std::string& cell) {
+  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+  std::string text = "\"";
+  for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
+}
+
 constexpr std::string_view kHex = "0123456789abcdef";
 
 /// True if there are bytes, and each is one of `allowed`.
@@ -86,6 +93,30 @@ std::string hex8(std::uint32_t value) {
 }
 
 }  // namespace
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string line;
+  for (std::size_t i = 0; i < cells.size(); ++i) line += (i == 0 ? "" : ",") + quoted(cells[i]);
+  return line + "\n";
+}
+
+std::optional<std::vector<std::string>> cells_of(std::string_view text) {
+  std::vector<std::string> cells(1);
+  bool open = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"' && open && i + 1 < text.size() && text[i + 1] == '"') {
+      cells.back() += text[i++];
+    } else if (text[i] == '"') {
+      open = !open;
+    } else if (text[i] == ',' && !open) {
+      cells.emplace_back();
+    } else {
+      cells.back() += text[i];
+    }
+  }
+  if (open) return std::nullopt;
+  return cells;
+}
 
 Fields& Fields::set(const std::string& name, const std::string& value) {
   if (!is_name(name)) throw std::invalid_argument("'" + name + "' cannot name a field");

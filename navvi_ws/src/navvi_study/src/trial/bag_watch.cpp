@@ -1,5 +1,15 @@
 #include "trial/bag_watch.hpp"
 
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
 namespace navvi_study::trial {
 namespace {
 
@@ -10,6 +20,95 @@ constexpr double kHalted = 2.0;  // s, in which a recorder may be stopped by a s
 constexpr double kClose = 8.0;   // s, for the recorder to close the bag
 
 }  // namespace
+
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::uintmax_t kEmptyBag = 4117;  // bytes, a bag's header alone
+
+}  // namespace
+
+BagRecorder::BagRecorder(const fs::path& bag, const std::string& node_name,
+                         const std::vector<std::string>& topics, const std::string& program)
+    : bag_(bag) {
+  // Small chunks lose little when the recorder is killed; the default min-space leaves an empty bag
+  // and success behind.
+  std::vector<std::string> words = {
+      program,           "-q",           "-O",   bag.string(), "--chunksize=64",
+      "--min-space=50M", "--tcpnodelay", "--bz2"};
+  words.insert(words.end(), topics.begin(), topics.end());
+  words.push_back("__name:=" + node_name);
+  std::vector<char*> arguments;
+  for (auto& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  child_ = ::fork();
+  if (child_ != 0) return;
+  // A group of its own: the signal that ends the session must reach this process first.
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGINT);
+  if (::getppid() != parent) ::_exit(1);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGINT, SIG_DFL);
+  ::signal(SIGTERM, SIG_DFL);
+  const int nowhere = ::open("/dev/null", O_RDWR);  // it lists its topics in spite of -q
+  ::dup2(nowhere, STDOUT_FILENO);
+  ::execv(program.c_str(), arguments.data());
+  ::_exit(127);
+}
+
+BagRecorder::~BagRecorder() {
+  if (!running()) return;
+  stop();
+  for (int i = 0; i < 100 && running(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  if (!running()) return;
+  kill();
+  ::waitpid(child_, nullptr, 0);
+}
+
+bool BagRecorder::running() {
+  if (child_ <= 0) return false;
+  const pid_t ended = ::waitpid(child_, &status_, WNOHANG);
+  if (ended == 0) return true;
+  child_ = -1;
+  return false;
+}
+
+bool BagRecorder::halted() const {
+  std::ifstream file("/proc/" + std::to_string(child_) + "/stat");
+  std::string words;
+  std::getline(file, words);
+  const auto name = words.rfind(')');  // the program's; the state's letter follows
+  return child_ > 0 && name != words.npos && words.compare(name, 3, ") T") == 0;
+}
+
+std::uintmax_t BagRecorder::size() const {
+  std::error_code error;
+  for (const auto& path : {fs::path(bag_.string() + ".active"), bag_}) {
+    const auto size = fs::file_size(path, error);
+    if (!error) return size;
+  }
+  return 0;
+}
+
+void BagRecorder::stop() {
+  asked_ = true;
+  if (child_ > 0) ::kill(child_, SIGINT);
+}
+
+void BagRecorder::kill() {
+  if (child_ > 0) ::kill(child_, SIGKILL);
+}
+
+bool BagRecorder::closed_well() {
+  std::error_code error;
+  return !running() && asked_ && WIFEXITED(status_) && WEXITSTATUS(status_) == 0 &&
+         fs::exists(bag_, error) && fs::file_size(bag_, error) > kEmptyBag;
+}
 
 void BagWatch::hears(double time) {
   listens_ = true;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "trial/source_names.hpp"
+#include "trial/trial_node_config.hpp"
 #include "trial/trial_monitor.hpp"
 
 namespace navvi_study::trial {

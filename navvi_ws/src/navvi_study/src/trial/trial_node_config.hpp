@@ -4,10 +4,19 @@
 #include <vector>
 
 #include "navvi_config/field.hpp"
-#include "trial/source_names.hpp"
 #include "trial/trial_monitor.hpp"
 
 namespace navvi_study::trial {
+
+/// What the nodes of this session call their topics and frames; for sentences.
+struct SourceNames {
+  std::string odometry = "/odom";
+  std::string guidance = "/navvi/guidance";
+  std::string octomap = "/octomap_binary";
+  std::string grid = "/map";
+  std::string map_frame = "map";
+  std::string base_frame = "base_link";
+};
 
 /// Where a trial stands in a study's plan, as its summary has it.
 struct StudyConfig {

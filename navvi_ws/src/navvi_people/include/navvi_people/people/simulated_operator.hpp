@@ -10,12 +10,9 @@
 #include "navvi_people/people/ears.hpp"
 #include "navvi_people/people/feeling.hpp"
 #include "navvi_people/people/heard.hpp"
-#include "navvi_people/people/hearing.hpp"
 #include "navvi_people/people/instruction.hpp"
 #include "navvi_people/people/mind.hpp"
-#include "navvi_people/people/pulses.hpp"
 #include "navvi_people/people/tracking.hpp"
-#include "navvi_people/people/turning.hpp"
 
 namespace navvi_people::people {
 
@@ -68,10 +65,11 @@ class SimulatedOperator {
   [[nodiscard]] const Listener& listener() const { return ears_.listener(); }
   [[nodiscard]] bool arrived() const { return mode_ == Mode::arrived; }
   [[nodiscard]] bool gave_up() const { return attention_.gave_up(); }
-  /// What the hands are at, in words, for a trace.
-  [[nodiscard]] std::string doing() const;
 
  private:
+  static constexpr double kNearTheEnd = 1.5;   ///< m to where one expects to stop
+  static constexpr double kListenFirst = 2.5;  ///< m, likewise
+
   enum class Mode { waiting, turning, driving, backing, arrived };
   /// The ticks, or the motor, that tell to turn.
   struct Ticks {
@@ -122,14 +120,14 @@ class SimulatedOperator {
 
   void hear_words(const Speech& speech, double time);
   void touch(double time);
-  void follow(Meaning meaning, double time);
-  void follow(const Tone& tone, double time);
+  void react(Meaning meaning, double time);
+  void react(const Tone& tone, double time);
   void follow_tick(const Tone& tick, double time);
   void stop_turn(double time);
   [[nodiscard]] StickAndButtons turn_by_ear(double time) const;
   void understood(std::uint32_t id, double time);
-  void follow(const Sentence& sentence, double time);
-  void follow(const Sentence& sentence, const Instruction& instruction, double time);
+  void react(const Sentence& sentence, double time);
+  void obey(const Sentence& sentence, const Instruction& instruction, double time);
   void turn_to(const Sentence& sentence, const Instruction& instruction, double time);
   void go_for(const Sentence& sentence, const Instruction& instruction);
   void expect_turn(const Sentence& sentence, const Instruction& turn);
@@ -145,7 +143,7 @@ class SimulatedOperator {
   void press_start(double time);
   void go_ahead();
   void ask_when_lost(double time);
-  void follow_what_is_due(double time);
+  void react_to_what_is_due(double time);
   void believe(const StickAndButtons& hand, double dt);
 
   SimulatedOperatorConfig config_;

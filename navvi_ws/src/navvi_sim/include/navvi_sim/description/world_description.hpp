@@ -94,4 +94,10 @@ class WorldError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A thing with a route at one instant.
+struct MoverState {
+  navvi_types::MovingThing thing;                          ///< its id: WorldDescription::things
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of its origin, in map
+};
+
 }  // namespace navvi_sim

@@ -7,7 +7,6 @@
 #include <navvi_types/thing.hpp>
 #include <vector>
 
-#include "navvi_sim/description/mover_state.hpp"
 #include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/physics/robot.hpp"
 #include "navvi_sim/traffic/movers_config.hpp"

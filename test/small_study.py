@@ -1,0 +1,117 @@
+"""A small study for the tests, and what drives in place of ./navvi."""
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "navvi_ws/src/navvi_study"
+sys.path.insert(0, str(PACKAGE / "python"))
+
+from navvi_study import plan_file, runner, session, study  # noqa: E402
+
+EXAMPLE = PACKAGE / "studies/example_plan.yaml"
+PLAN = """
+study: small
+title: A small study
+groups: {all: {participants: sub-01..sub-04}}
+conditions: {full: {picture: false}, plain: {picture: false, touch: false}}
+worlds:
+  sets: {a: {world: easy, seeds: [1]}, b: {world: easy, seeds: [2]}}
+  reserve: {world: easy, seeds: 11..12}
+operator: simulated
+limit: 60
+questionnaires: {after_condition: [tlx]}
+outcomes: {primary: {measure: time, conditions: [plain, full]}}
+exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]
+"""
+
+
+def small(folder, *changes):
+    """A plan, with pairs of old and new text in place."""
+    text = PLAN
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path = folder / "small.yaml"
+    path.write_text(text)
+    return plan_file.load(path)
+
+
+class Driver:
+    """Instead of ./navvi: each trial's summary has the next result, or none is written."""
+
+    asks = "nobody"
+
+    def __init__(self, work, *results):
+        self.work, self.results, self.driven = work, list(results), []
+
+    def trial(self, participant, step, attempt, folder, lock):
+        self.driven.append((attempt.world, attempt.seed))
+        result = self.results.pop(0) if self.results else "reached"
+        if result == "none":
+            return
+        if result == "killed":
+            raise KeyboardInterrupt
+        write_summary(folder / f"trial-{len(self.driven)}", result)
+
+    def ask(self, participant, step, items, answered, lock):
+        runner.simulate_answers(participant, step, items, answered)
+
+    def calibrate(self, participant, lock):
+        pass
+
+    def close(self, folder):
+        pass
+
+
+def write_summary(folder, result="reached", elapsed=20.0, reason="n/a"):
+    folder.mkdir(parents=True)
+    row = {"trial": folder.name, "started_utc": "2026-01-01T00:00:00Z", "result": result, "reason": reason, "elapsed_s": elapsed, "shelf_collision_count": 1,
+           "obstacle_collision_count": 2, "path_length_m": 12.0, "first_path_length_m": 10.0}
+    (folder / "summary.csv").write_text(",".join(row) + "\n" + ",".join(map(str, row.values())) + "\n")
+
+
+@pytest.fixture
+def work(tmp_path):
+    """A frozen study; work(*results) gives a session whose trials end so."""
+    kept = study.Study(small(tmp_path))
+    kept.freeze("test", None)
+
+    def begin(*results):
+        driver = Driver(kept, *results)
+        begun = session.Session(kept, driver, say=lambda line: None, wait=False)
+        begun.driver = driver
+        return begun
+    begin.study = kept
+    return begin
+
+
+def rest(begun, name="sub-01"):
+    """The steps that are left, done."""
+    steps = []
+    while (step := begun.next(name)) is not None:
+        steps.append(step.name)
+    return steps
+
+
+def rehearsed(folder, trials_bench, said):
+    from navvi_study import rehearsal
+    planned = plan_file.load(folder / "small.yaml")
+    return rehearsal.rehearse(planned, trials_bench, "test", said.append)
+
+
+@pytest.fixture
+def bench(tmp_path):
+    """Instead of trials_bench: a summary a trial, and it waits where a file says so."""
+    small(tmp_path)
+    path = tmp_path / "trials_bench"
+    path.write_text(f"""#!/bin/sh
+echo "$@" >> {tmp_path}/calls
+if test -e {tmp_path}/wait && test $(wc -l < {tmp_path}/calls) -gt 3; then touch {tmp_path}/there; sleep 30; fi
+for word in "$@"; do case $word in --out=*) out=${{word#--out=}}/trial-easy-1 ;; esac; done
+mkdir -p $out
+printf 'trial,started_utc,result,reason,elapsed_s,path_length_m,first_path_length_m\ntrial-easy-1,2026-01-01T00:00:00Z,reached,n/a,20.0,12.0,10.0\n' > $out/summary.csv
+""")
+    path.chmod(0o755)
+    return path

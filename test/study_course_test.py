@@ -1,0 +1,376 @@
+"""Studies without a session: what comes next, and the journal after crashes."""
+import getpass
+import itertools
+import multiprocessing
+import os
+import shutil
+import signal
+import sys
+import time
+
+import pytest
+
+from small_study import Driver, ROOT, bench, rehearsed, rest, small, work, write_summary  # noqa: F401
+from navvi_study import actions, journal, overview, runner, session, study, table  # noqa: E402
+from navvi_study.errors import StudyError  # noqa: E402
+
+# What comes next.
+
+def test_a_participant_is_led_through_the_plan(work):
+    assert rest(work()) == ["s1-c1-trial-1", "s1-c1-tlx", "s1-c2-trial-1", "s1-c2-tlx", "s1-end"]
+    assert work.study.progress().complete(work.study.progress().person("sub-01"))
+    assert "sub-01: 2 of 2 trials; has done everything." in overview.status(work.study, work.study.progress())
+
+
+def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_path):
+    kept = study.Study(small(tmp_path))
+    with pytest.raises(StudyError, match="not frozen"):
+        rest(session.Session(kept, Driver(kept)))
+    kept.freeze("test", None)
+    changed = study.Study(small(tmp_path, ("limit: 60", "limit: 90")))
+    with pytest.raises(StudyError, match="limit: 60.0 is now 90.0"):
+        rest(session.Session(changed, Driver(changed)))
+    with pytest.raises(StudyError, match="--reason"):
+        changed.freeze("test", None)
+    assert changed.freeze("test", "too short") == ["limit: 60.0 is now 90.0"]
+    assert changed.progress().freezes[-1]["changes"] == ["limit: 60.0 is now 90.0"]
+
+
+def test_a_person_is_not_led_through_a_whole_study_at_once(tmp_path):
+    kept = study.Study(small(tmp_path, ("operator: simulated", "operator: pad")))
+    kept.freeze("test", None)
+    with pytest.raises(StudyError, match='"pad"; study run is for simulated'):
+        actions.Run.run(type("Args", (), {"plan": kept.plan.file, "only": None}))
+
+
+def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(work):
+    begun = work("aborted")
+    assert rest(begun)[:2] == ["s1-c1-trial-1", "s1-c1-trial-1"]
+    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 11)]
+    rows = table.trials(work.study, work.study.progress())
+    assert [(row["attempt"], row["counts"], row["excluded"], row["replaces"]) for row in rows[:2]] == [
+        ("1", "no", "the trial broke off", "n/a"), ("2", "yes", "n/a", "trial-1")]
+
+
+def test_an_invalid_record_counts_in_no_plan(tmp_path):
+    kept = study.Study(small(tmp_path, ("exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]", "")))
+    kept.freeze("test", None)
+    rest(session.Session(kept, Driver(kept, "invalid"), say=lambda line: None, wait=False))
+    rows = table.trials(kept, kept.progress())
+    assert [(row["counts"], row["excluded"]) for row in rows[:2]] == [("no", "its record is not whole"), ("yes", "n/a")]
+
+
+@pytest.mark.parametrize("exclusions", [True, False])
+def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, exclusions):
+    rule = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]"
+    kept = study.Study(small(tmp_path, ("sub-01..sub-04", "sub-01..sub-06"), *([] if exclusions else [(rule, "")])))
+    kept.freeze("test", None)
+
+    class GivingUp(Driver):
+        """The person ends a trial of sub-01, and the experimenter one of sub-02; one of sub-03 breaks off by itself."""
+        def trial(self, participant, step, attempt, folder, lock):
+            ends = participant in ("sub-01", "sub-02", "sub-03") and step.condition == "plain" and attempt.number == 1
+            if participant == "sub-02" and ends:
+                kept.note(participant, attempt, {"utc": "", "mono_ns": 1, "type": "abort", "text": ""})
+            reason = {"sub-01": "ended_by_person", "sub-02": "stopped_by_signal"}.get(participant, "goal_changed")
+            self.driven.append((participant, attempt.seed))
+            write_summary(folder / f"trial-{len(self.driven)}", "aborted" if ends else "reached", reason=reason if ends else "n/a")
+    driver = GivingUp(kept)
+    said = []
+    for name in kept.plan.participants:
+        rest(session.Session(kept, driver, say=said.append, wait=False), name)
+    assert [seed for name, seed in driver.driven if seed > 10] == [11], "a world of the reserve for sub-03 alone"
+    rows = table.trials(kept, kept.progress())
+    assert [row["counts"] for row in rows if row["participant"] in ("sub-01", "sub-02") and row["condition"] == "plain"] == ["drop-out"] * 2
+    assert [row["counts"] for row in rows if row["participant"] == "sub-03" and row["condition"] == "plain"] == ["no", "yes"]
+    assert sum("a drop-out, ended by the" in line for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
+    lines = overview.status(kept, kept.progress())
+    assert any("is a drop-out: ended by the person." in line for line in lines) and not any("without a trial" in line for line in lines)
+    from navvi_study.analysis import Analysis
+    analysis = Analysis(kept, kept.progress())
+    shown = {name: {row["condition"]: (row["trials"], round(row["mean"], 3)) for row in analysis.by_condition(name)} for name in ("reached", "drop_out", "collisions")}
+    assert shown == {"reached": {"full": (6, 1.0), "plain": (6, 0.667)}, "drop_out": {"full": (6, 0.0), "plain": (6, 0.333)},
+                     "collisions": {"full": (6, 3.0), "plain": (4, 3.0)}}
+    name = next(row["trial"] for row in rows if row["counts"] == "drop-out")
+    actions.Exclude.run(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
+    begun = session.Session(kept, driver, say=said.append, wait=False)
+    assert len(rest(begun, "sub-01")) == 1 and driver.driven[-1] == ("sub-01", 11)
+
+
+def test_trials_that_broke_off_count_in_no_plan(tmp_path):
+    kept = study.Study(small(tmp_path, ("exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]", "")))
+    kept.freeze("test", None)
+    rest(session.Session(kept, Driver(kept, "aborted", "refused"), say=lambda line: None, wait=False))
+    assert [(row["counts"], row["excluded"]) for row in table.trials(kept, kept.progress())] == [("no", "it broke off")] * 2 + [("yes", "n/a")] * 2
+
+
+def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, capsys):
+    plan = small(tmp_path)
+    actions.TOOLS["version"] = lambda: "test"
+    actions.Freeze.run(type("Args", (), {"plan": plan.file, "reason": None}))
+    printed = capsys.readouterr().out
+    for line in overview.broken_off(plan):
+        assert line in printed and line in overview.schedule(plan)
+    assert "nothing takes its place" in printed and "The same holds where result is aborted or invalid: the trial broke off." in printed
+
+
+def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, monkeypatch):
+    monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)
+    hall = "<sdf version='1.6'><world name='w'><include><uri>model://ground_plane</uri></include>{}</world></sdf>"
+    (tmp_path / "hall.sdf").write_text(hall.format(""))
+    plan = small(tmp_path, ("a: {world: easy", "a: {world: hall.sdf"))
+    args = type("Args", (), {"plan": plan.file, "reason": None, "no_worlds": False, "pictures": False})
+    for action in actions.Check, actions.Freeze:
+        with pytest.raises(StudyError) as problem:
+            action.run(args)
+        assert "nothing stands in" in str(problem.value) and str(tmp_path / "hall.sdf") in str(problem.value)
+    (tmp_path / "hall.sdf").write_text(hall.format("<model name='box'><static>1</static><pose>3 0 .5 0 0 0</pose><link name='l'><collision name='c'>"
+                                                   "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model>"))
+    actions.Freeze.run(args)
+    assert study.Study.of(plan.file).progress().freezes
+
+
+def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):
+    from navvi_study import measures
+    row = {"counts": "yes", "result": "timeout", "path_length_m": "5.0", "first_path_length_m": "10.0"}
+    assert measures.value(measures.MEASURES["detour"], row) is None
+    assert measures.value(measures.MEASURES["detour"], {**row, "result": "reached"}) == 0.5
+    with pytest.raises(StudyError) as problem:
+        small(tmp_path, ("measure: time", "measure: detour"))
+    assert "\"outcomes/primary/measure\" is detour, which is defined for trials that reached the goal alone; allowed are \"trials: reached\"" in str(problem.value)
+    plan = small(tmp_path, ("measure: time", "trials: reached, measure: detour"))
+    assert plan.values()["primary"]["trials"] == "reached" and "of trials that reached the goal" in overview.question(plan.primary)
+    with pytest.raises(StudyError, match="time is defined for trials that count; allowed is to leave it out"):
+        small(tmp_path, ("measure: time", "trials: reached, measure: time"))
+    assert "trials" not in small(tmp_path).values()["primary"], "plans of before keep their hash"
+
+
+def test_the_page_on_studies_says_for_which_trials_each_measure_is_defined():
+    from navvi_study import measures
+    page = (ROOT / "doc/study.md").read_text()
+    for name, measure in measures.MEASURES.items():
+        assert f"| {name} | {measure.label}, {measure.unit} | {measure.of} |" in page, name
+
+
+def test_where_no_trial_began_the_same_world_comes_again(work):
+    begun = work("none")
+    assert begun.next("sub-01") is None
+    assert rest(begun)[0] == "s1-c1-trial-1"
+    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 1)]
+
+
+def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):
+    with pytest.raises(KeyboardInterrupt):
+        work("killed").next("sub-01")
+    attempt = work.study.progress().person("sub-01").open
+    write_summary(work.study.attempt_folder("sub-01", attempt.step, attempt.number) / "trial-9", "reached")
+    assert rest(work())[0] == "s1-c1-tlx"
+    assert [row["trial"] for row in table.trials(work.study, work.study.progress())][0] == "trial-9"
+
+
+def test_exclusions_are_rows_and_nothing_is_deleted(work, capsys):
+    rest(work())
+    before = work.study.journal.path.read_bytes()
+    args = type("Args", (), {"plan": work.study.plan.file, "what": "sub-01/trial-1", "reason": "the phone rang", "no_replacement": False})
+    actions.Exclude.run(args)
+    assert work.study.journal.path.read_bytes().startswith(before)
+    with pytest.raises(StudyError, match="excluded already"):
+        actions.Exclude.run(args)
+    begun = work()
+    assert rest(begun) == ["s1-c1-trial-1"] and begun.driver.driven == [("easy", 11)]
+    row = work.study.journal.rows()[-3]
+    assert row["type"] == "exclude" and row["reason"] == "the phone rang" and row["by"] == getpass.getuser()
+
+
+def test_when_the_reserve_is_used_up_the_trial_is_missing_and_the_rest_goes_on(work):
+    assert rest(work("aborted", "aborted", "aborted"))[3:] == ["s1-c1-tlx", "s1-c2-trial-1", "s1-c2-tlx", "s1-end"]
+    state = work.study.progress()
+    assert [step.name for step in state.missing(state.person("sub-01"))] == ["s1-c1-trial-1"]
+
+
+def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path):
+    kept = study.Study(small(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 2, collisions_at_most: 3, most: 4}\nlimit: 60")))
+    kept.freeze("test", None)
+    begun = session.Session(kept, Driver(kept, "timeout", "reached", "reached"), say=lambda line: None)
+    assert rest(begun).count("s1-practice") == 3
+    begun = session.Session(kept, Driver(kept, "timeout", "reached", "timeout", "reached"), say=lambda line: None)
+    assert rest(begun, "sub-02").count("s1-practice") == 4
+    people = kept.progress().people
+    assert (people["sub-01"].done["s1-practice"]["mastered"], people["sub-02"].done["s1-practice"]["mastered"]) == (True, False)
+
+
+def test_nobody_drives_without_consent(tmp_path):
+    (tmp_path / "consent.yaml").write_text("title: Consent\nitems: [{name: agree, ask: Do you agree, choices: [\"no\", \"yes\"], required: \"yes\"}]")
+    kept = study.Study(small(tmp_path, ("limit: 60", "consent: consent\nlimit: 60")))
+    kept.freeze("test", None)
+    said = []
+    begun = session.Session(kept, Driver(kept), say=said.append)
+    begun.runner.ask = lambda participant, step, items, answered, lock: answered(items[0], "no")
+    assert begun.next("sub-01") is None
+    assert said[-1] == "navvi: sub-01: consent is not given, by an answer that was drawn: nobody was asked."
+    assert kept.journal.rows()[-1]["asked"] == "nobody", "a rehearsed consent is told from a real one"
+    with_status = "\n".join(overview.status(kept, kept.progress()))
+    assert "sub-01: 0 of 2 trials; has not given consent." in with_status
+    assert rest(begun) == [] and begun.runner.driven == []
+
+
+def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
+    rest(work())
+    work.study.journal.append("withdraw", participant="sub-01", data="delete")
+    again = study.Study(work.study.plan)  # after a crash, any command
+    assert not again.home("sub-01").exists()
+    assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"]
+    assert table.trials(again, again.progress()) == [] and table.answers(again, again.progress()) == []
+    assert rest(work()) == []
+
+
+def test_the_study_stops_where_the_plan_says(tmp_path):
+    kept = study.Study(small(tmp_path, ("limit: 60", "stop: {completed: 1}\nlimit: 60")))
+    kept.freeze("test", None)
+    begun = session.Session(kept, Driver(kept), say=lambda line: None)
+    rest(begun)
+    with pytest.raises(StudyError, match="stops after 1"):
+        begun.next("sub-02")
+
+
+def test_two_experimenters_do_not_drive_one_participant(work):
+    with work.study.claimed("sub-01"), pytest.raises(StudyError, match="running still"):
+        work().next("sub-01")
+
+
+@pytest.mark.parametrize("with_command", [True, False])
+def test_D3_a_session_that_outlived_its_terminal_is_named_and_stopped(work, tmp_path, capsys, with_command):
+    navvi = tmp_path / "navvi"
+    navvi.write_text(f"""#!/bin/sh
+trap 'touch {tmp_path}/ended; exit 1' INT
+touch {tmp_path}/there
+while true; do sleep 0.1; done
+""")
+    navvi.chmod(0o755)
+    child = multiprocessing.Process(target=lambda: session.Session(work.study, runner.LiveRunner(work.study, navvi, "true")).next("sub-01"), daemon=True)
+    child.start()
+    deadline = time.monotonic() + 20
+    while not (tmp_path / "there").exists():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    if not with_command:
+        os.kill(child.pid, signal.SIGKILL)
+        child.join()
+    orphan = next(pid for pid, name in work.study.running("sub-01").items() if name == "navvi")
+    with pytest.raises(StudyError, match=rf"running still: process .*{orphan} \(navvi\).*\./navvi study stop {work.study.plan.file} sub-01"):
+        work().next("sub-01")
+    begun = time.monotonic()
+    args = type("Args", (), {"plan": work.study.plan.file, "participant": "sub-01"})
+    actions.Stop.run(args)
+    assert time.monotonic() - begun < 5 and (tmp_path / "ended").exists() and f"{orphan} (navvi)" in capsys.readouterr().out
+    child.join()
+    actions.Stop.run(args)
+    assert "nothing of sub-01 is running" in capsys.readouterr().out
+    assert rest(work())[0] == "s1-c1-trial-1"
+
+
+# The journal.
+
+def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
+    kept = journal.Journal(tmp_path / "journal.jsonl")
+    for number in range(3):
+        kept.append("done", number=number)
+    with open(kept.path, "ab") as file:
+        file.write(b'{"seq": 4, "ty')
+    assert [row["number"] for row in journal.Journal(kept.path).rows()] == [0, 1, 2]
+    assert (tmp_path / "journal.torn").read_bytes() == b'{"seq": 4, "ty\n'
+    assert kept.append("done", number=3)["seq"] == 4
+    lines = kept.path.read_text().splitlines(keepends=True)
+    for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]]):
+        kept.path.write_text("".join(changed))
+        with pytest.raises(StudyError, match="damaged, changed"):
+            journal.Journal(kept.path).rows()
+
+
+def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
+    for content in (b"{", b"\xff", b"[]", b"{}"):
+        work.study.frozen_file.write_bytes(content)
+        with pytest.raises(StudyError, match="restore it from a copy"):
+            work.study.require_frozen()
+
+
+def _write_for_ever(path):
+    kept = journal.Journal(path)
+    for number in itertools.count():
+        kept.append("done", number=number)
+        sys.stdout.write(f"{number}\n")
+        sys.stdout.flush()
+
+
+def test_kill_9_loses_no_row_that_was_acknowledged_and_doubles_none(tmp_path):
+    path, told = tmp_path / "journal.jsonl", 0
+    for _ in range(3):
+        reader, writer = os.pipe()
+        process = multiprocessing.Process(target=lambda: (os.dup2(writer, 1), setattr(sys, "stdout", os.fdopen(1, "w")), _write_for_ever(path)))
+        process.start()
+        os.close(writer)
+        time.sleep(0.4)
+        os.kill(process.pid, signal.SIGKILL)
+        process.join()
+        with os.fdopen(reader) as lines:
+            acknowledged = sum(1 for _ in lines)
+        rows = journal.Journal(path).rows()
+        assert acknowledged > 3
+        assert told + acknowledged <= len(rows) <= told + acknowledged + 1
+        assert [row["seq"] for row in rows] == list(range(1, len(rows) + 1))
+        told = len(rows)
+
+
+def test_a_full_disk_begins_nothing(work, monkeypatch):
+    monkeypatch.setattr(journal.os, "write", lambda file, line: len(line) // 2)
+    begun = work()
+    with pytest.raises(StudyError, match="cannot be written"):
+        begun.next("sub-01")
+    monkeypatch.undo()
+    assert begun.driver.driven == []
+    assert rest(begun)[0] == "s1-c1-trial-1"
+
+
+def test_a_rehearsal_that_was_killed_goes_on_and_ends_with_the_same_table(tmp_path, bench):
+    whole = rehearsed(tmp_path, bench, [])
+    wanted = [(row["participant"], row["condition"], row["elapsed_s"]) for row in table.trials(whole, whole.progress())]
+    shutil.rmtree(whole.folder)
+    (tmp_path / "calls").unlink()
+    (tmp_path / "wait").touch()
+    process = multiprocessing.Process(target=lambda: (os.setsid(), rehearsed(tmp_path, bench, [])))
+    process.start()
+    deadline = time.monotonic() + 20
+    while not (tmp_path / "there").exists():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.join()
+    (tmp_path / "wait").unlink()
+    said = []
+    again = rehearsed(tmp_path, bench, said)
+    assert "goes on" in said[0]
+    assert [(row["participant"], row["condition"], row["elapsed_s"]) for row in table.trials(again, again.progress())] == wanted
+    assert len(again.progress().freezes) == 1
+    said.clear()
+    rehearsed(tmp_path, bench, said)
+    assert "goes on" not in said[0], "it was done, and begins anew"
+
+
+def test_a_rehearsal_on_a_full_disk_is_a_sentence_and_goes_on_once_there_is_room(tmp_path, bench, monkeypatch):
+    real, left = os.fsync, [40]
+
+    def fsync(file):
+        left[0] -= 1
+        if left[0] < 0:
+            raise OSError(28, "No space left on device")
+        real(file)
+    monkeypatch.setattr(os, "fsync", fsync)
+    with pytest.raises(StudyError, match="No space left"):
+        rehearsed(tmp_path, bench, [])
+    monkeypatch.undo()
+    said = []
+    kept = rehearsed(tmp_path, bench, said)
+    assert "goes on" in said[0]
+    counted = [(row["participant"], row["condition"]) for row in table.trials(kept, kept.progress()) if row["counts"] == "yes"]
+    assert len(counted) == len(set(counted)) == 8

@@ -1,0 +1,139 @@
+"""Studies without a session: the design, the plan and what is refused in it, the schedule."""
+import collections
+import itertools
+import time
+
+import pytest
+
+from small_study import EXAMPLE, PACKAGE, small
+from navvi_study import design, overview, plan_file, probe, progress, questionnaire, runner, schedule, study  # noqa: E402
+from navvi_study.errors import StudyError  # noqa: E402
+
+# The design.
+
+@pytest.mark.parametrize("size", range(1, 9))
+def test_orders_are_balanced_for_place_and_first_order_carry_over(size):
+    rows = design.williams(size)
+    assert len(rows) == (size if size % 2 == 0 else 2 * size)
+    for place in range(size):
+        assert len(set(collections.Counter(row[place] for row in rows).values())) == 1
+    followed = collections.Counter(pair for row in rows for pair in itertools.pairwise(row))
+    assert len(followed) == size * (size - 1)
+    assert len(set(followed.values())) <= 1
+
+
+@pytest.mark.parametrize("size", range(2, 7))
+def test_each_condition_is_driven_in_each_set_of_worlds_equally_often(size):
+    orders = len(design.williams(size))
+    met = collections.Counter((condition, design.set_of(participant, condition, size, orders))
+                              for participant in range(orders * size) for condition in range(size))
+    assert len(met) == size * size and len(set(met.values())) == 1
+
+
+@pytest.mark.parametrize("size", range(2, 7))
+def test_no_set_of_worlds_stays_tied_to_a_place_in_the_order(size):
+    rows = design.williams(size)
+    met = collections.Counter((place, design.set_of(participant, rows[participant % len(rows)][place], size, len(rows)))
+                              for participant in range(len(rows) * size) for place in range(size))
+    assert len(met) == size * size and len(set(met.values())) == 1
+
+
+# The plan.
+
+@pytest.mark.parametrize("old, new, sentence", [
+    ("limit: 60", "limt: 60", "\"limit\" is missing; \"limt\" is unknown"),
+    ("operator: simulated", "oprator: simulated", "small.yaml:9: \"oprator\" is unknown; known are: "),
+    ("limit: 60", "limit: -1", "\"limit\" is -1; allowed is a number from 1 to 86400"),
+    ("limit: 60", "limit: 60\nlimit: 61", "the key \"limit\" is given twice"),
+    ("limit: 60", "limit: [", "cannot parse the YAML"),
+    ("touch: false", "tuch: false", "\"conditions/plain/tuch\" is unknown"),
+    ("touch: false", "touch: off_", "\"conditions/plain/touch\" is \"off_\"; allowed is true or false"),
+    ("touch: false", "touch: true", "full and plain, which are alike"),
+    ("touch: false", "parameters: {feedback/haptics/enabled: false}", "is set by the study itself"),
+    ("touch: false", "parameters: {strength: 1}", "is not a parameter of a node"),
+    ("seeds: [2]", "seeds: [1]", "has easy 1 twice"),
+    ("seeds: [2]", "seeds: [2, 3]", "sets of different sizes"),
+    ("seeds: 11..12", "seeds: 1..3", "has easy 1 twice"),
+    (", b: {world: easy, seeds: [2]}", "", "has 1 sets, and group all has 2 conditions"),
+    ("world: easy, seeds: [1]", "world: own.yaml, seeds: [1]", "own.yaml is not a file"),
+    ("sub-01..sub-04", "[sub-01, sub-01]", "plans sub-01 twice"),
+    ("sub-01..sub-04", "[Ann Smith]", "letters, digits, - and _"),
+    ("[plain, full]", "[plain, none]", "allowed is one of: full, plain"),
+    ("[plain, full]", "[plain, plain]", "allowed are two conditions"),
+    ("measure: time", "measure: sus", "does not ask sus"),
+    ("[tlx]", "[txl]", "allowed are files in"),
+    ("column: result, is: [aborted, invalid]", "column: result", "needs one of the keys"),
+    ("title: A small study", "", "the key \"title\" is missing"),
+    ("operator: simulated", "sessions: 3", "a condition a session or more"),
+    ("limit: 60", "limit: 60\nprobes: {after: [20, 5], worlds: {world: easy, seeds: [3, 4]}}", "is not a pair; allowed are the earliest and the latest second"),
+    ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3]}}", "has 1 worlds, and group all has 2 conditions"),
+    ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [1, 3]}}", "has easy 1 twice"),
+    ("[tlx]", "[probe]", "allowed are such items below the plan's key \"probes\""),
+    ("measure: time", "measure: pointing", "does not ask probe"),
+])
+def test_a_wrong_plan_is_refused_with_file_key_and_what_is_allowed(tmp_path, old, new, sentence):
+    with pytest.raises(StudyError) as problem:
+        small(tmp_path, (old, new))
+    assert str(tmp_path) in str(problem.value)
+    assert sentence in str(problem.value)
+
+
+def test_the_example_can_be_checked_and_nobody_meets_a_world_twice():
+    example = plan_file.load(EXAMPLE)
+    assert len(example.participants) == 20
+    for name in example.participants:
+        worlds = [step.world for step in schedule.steps_of(example, name) if step.world]
+        assert len(worlds) == len(set(worlds)) == 8
+    text = "\n".join(overview.schedule(example))
+    assert "sub-20: " in text and "4 orders" in text and "hours" in text
+    assert "balanced for order and first-order carry-over" in text
+
+
+def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
+    for path in (PACKAGE / "studies/questionnaires").glob("*.yaml"):
+        asked = questionnaire.load(path)
+        assert asked.items and questionnaire.script(asked.items, asked.title, asked.intro)
+    sus = questionnaire.find("sus", EXAMPLE.parent)
+    assert sus.scored({item.name: "3" for item in sus.items}, {}) == 50.0
+    assert sus.scored({item.name: "5" if at % 2 == 0 else "1" for at, item in enumerate(sus.items)}, {}) == 100.0
+    tlx = questionnaire.find("tlx", EXAMPLE.parent)
+    assert tlx.scored({item.name: str(10 * at) for at, item in enumerate(tlx.items)}, {}) == 25.0
+    assert tlx.scored({item.name: "declined" for item in tlx.items}, {}) is None
+    probe = questionnaire.find("probe", EXAMPLE.parent)
+    assert probe.scored({"goal": "80", "start": "0", "left": "wall"}, {"goal": "-20", "start": "40", "left": "n/a"}) == 30.0
+    assert probe.scored({"goal": "declined"}, {"goal": "n/a"}) is None
+    for name in ("tlx", "sus", "probe"):  # another language asks the same, and is compared with it
+        first, other = (questionnaire.find(word, EXAMPLE.parent) for word in (name, name + "_es"))
+        assert other.measured == name and other.score == first.score
+        assert [(item.name, item.classes or item.values()) for item in other.items] == [(item.name, item.classes or item.values()) for item in first.items]
+
+
+def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
+    kept = study.Study(small(tmp_path))
+    step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.condition == "plain" and step.kind == "trial")
+    attempt = progress.Attempt(step.name, 1, "easy", 2, "", 0)
+    words = runner.LiveRunner(kept, "navvi", "close_trials").arguments("sub-01", step, attempt, tmp_path)
+    assert words["feedback/haptics/enabled"] == "false" and words["feedback/sounds/enabled"] == "true"
+    assert words["feedback/locked"] == words["trial/locked"] == "true"
+    assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
+
+
+def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
+    before = [{"stopping_delay_s": "0.5", "stopping_spread_s": "0.1"}, {"stopping_delay_s": "0.7", "stopping_spread_s": "0.2"},
+              {"stopping_delay_s": "n/a"}]
+    assert runner.learnt_before(before) == {"feedback/sounds/turn/stopping_delay": "0.7", "feedback/sounds/turn/stopping_spread": "0.2"}
+    assert runner.learnt_before([{}]) == {}
+
+
+def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path):
+    from navvi_study import worlds
+    plan = small(tmp_path)
+
+    def compared(**second):
+        row = {"result": "reached", "shortest_path_m": "40.000", "elapsed_s": "120.000", "turns_per_min": "2.0", "mover_proximity_count": "12"}
+        return worlds.compared(plan, {world: {**row, **(second if world.seed == 2 else {})} for world in plan.worlds})
+    lines, alike = compared()
+    assert alike and "  set 1: easy 1: reached, way 40.0, turns 4, movers 12, time 120.0." in lines
+    assert not compared(shortest_path_m="51.0")[1] and not compared(elapsed_s="151.0", turns_per_min="1.6")[1] and not compared(turns_per_min="4.0")[1]
+    assert compared(turns_per_min="3.0")[1], "two turns apart are alike, however few they are"
+    assert any(line == "The turns of set 2 are 8, those of set 1 4; other seeds would be better: alike are 1.25 times, or 2 turns." for line in compared(turns_per_min="4.0")[0])
