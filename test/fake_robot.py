@@ -64,7 +64,7 @@ def main(words):
     scans, odometry = rospy.Publisher("/scan", LaserScan, queue_size=1), rospy.Publisher("/odom", Odometry, queue_size=1)
     maps = rospy.Publisher("/map", OccupancyGrid, queue_size=1, latch=True)
     moving = rospy.Publisher("/tf", TFMessage, queue_size=5)
-    rospy.Subscriber("/robot/cmd_vel", Twist, lambda _: None)
+    rospy.Subscriber("/cmd_vel", Twist, lambda _: None)
     fixed = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
     lidar, sides = transform("base_link", "laser", 0.2, rospy.Time.now()), itertools.cycle((0.0, habits["jump"]))
     fixed.publish([lidar] if habits["place_hz"] else [transform("map", "odom", 0.0, rospy.Time.now()), lidar])

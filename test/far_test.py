@@ -51,7 +51,7 @@ class Session:
         self.env = dict(os.environ, HOME=str(folder), ROS_MASTER_URI=f"http://{far.ROBOT}:11311", ROS_LOG_DIR=str(folder))
         self.robot = self.start(self.wire.robot, "./navvi", "robot", "start", f"address:={far.ROBOT}", f"world:={WORLD}", "seed:=3",
                                 output=folder / "robot.txt")
-        self.wait(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 120)
+        self.wait(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 300)
 
     def start(self, side, *words, output=None, **more):
         env = dict(self.env, ROS_IP=side.address)
@@ -104,8 +104,8 @@ def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(sessi
     assert "The goal was reached" in said, said
     result = summary(session.folder)
     assert 2 * delay <= float(result["round_trip"]) < 2 * delay + 0.3
-    journal = next(session.folder.glob("trial-*/journal.csv")).read_text()
-    assert ("kind=connection_slow" in journal) == (delay > 0.15)
+    log = next(session.folder.glob("session-*.log")).read_text()
+    assert ("[connection_slow]" in log) == (delay > 0.15)
 
 
 def test_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session):

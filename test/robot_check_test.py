@@ -53,7 +53,7 @@ class Fake(robot.Robot):
         super().__init__({name: default for name, (default, _) in launch.arguments.items()} | {"input": "topic"} | words, words)
         self.scan, self.scan_hz, self.scan_age, self.odom_frame, self.odom_hz, self.joy_age = scan(), 10.0, 0.05, "odom", 50.0, 0.05
         self.scan_frame, self.lidar, self.place, self.map = "laser", "base_link", ("amcl", "map"), grid()
-        self.takers = {"/robot/cmd_vel": ["/base"]}
+        self.takers = {"/cmd_vel": ["/base"]}
 
     def send(self, name, kind, node, rate, message_at, seconds=2.0):
         self.kinds[name] = kind
@@ -102,7 +102,7 @@ def second_parent(fake):
 
 
 def second_driver(fake):
-    fake.publishers["/robot/cmd_vel"] = ["/relay_node", "/teleop"]
+    fake.publishers["/cmd_vel"] = ["/relay_node", "/teleop"]
 
 
 def wrong_type(fake):

@@ -80,7 +80,7 @@ void CommandGate::receive(const Command& command, const Instant& now) {
 }
 
 navvi_types::LinkState CommandGate::link_state(std::int64_t stamp) const {
-  constexpr double kFelt = 0.05, kMost = 3.0;  // s
+  constexpr double kFelt = 0.1, kMost = 3.0;  // s
   navvi_types::LinkState state = link_meter_.state(stamp);
   if (config_.foresight && state.round_trip >= kFelt)
     state.foresight = std::min(state.round_trip, kMost);

@@ -239,7 +239,7 @@ TEST_F(Gate, a_command_from_the_future_is_rejected) {
 }
 
 TEST_F(Gate, the_same_delay_all_the_time_is_usual) {
-  for (const double delay : {0.05, 0.5, 2.5}) {
+  for (const double delay : {0.15, 0.5, 2.5}) {
     delayed(0.4, Velocity{}, delay);
     delayed(6.0, Velocity{1.0, 0.0}, delay);
     EXPECT_EQ(wheels_.linear, 1.0) << delay;
@@ -248,6 +248,11 @@ TEST_F(Gate, the_same_delay_all_the_time_is_usual) {
     EXPECT_NEAR(gate_.link_state(0).foresight, delay, 1e-9);
     silence(10.0, 10.0);
   }
+}
+
+TEST_F(Gate, a_delay_that_is_not_felt_changes_nothing) {
+  delayed(6.0, Velocity{}, 0.08);
+  EXPECT_EQ(gate_.link_state(0).foresight, 0.0);
 }
 
 TEST_F(Gate, a_command_later_than_usual_drives_slowly_and_one_too_late_not_at_all) {

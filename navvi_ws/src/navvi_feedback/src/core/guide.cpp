@@ -58,6 +58,8 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   ask_side(now, time, out);
   out.share = assist(out.command, now);
   foresight.sent(out.command.value_or(Velocity{}), time);
+  if (const auto& robot = now.devices.robot; robot && now.connection.foresight > 0.0)
+    out.stops_at = robot->to_parent({drive::stopping_distance(now.motion().linear), 0.0});
   touch.use_pad(devices.pad);
   out.alarm_begins = touch.report(devices.audio, devices.motors);
   teacher.update(now, time);

@@ -7,6 +7,7 @@
 namespace navvi_feedback::drive {
 namespace {
 
+constexpr double kBrakes = 2.5;  // m/s^2
 constexpr double kSeen = 1.0;  // m, free, at which a delay alone limits the speed
 
 /// It is in the lane that the robot drives along.
@@ -18,10 +19,11 @@ bool is_ahead(const navvi_types::NearThing& thing, const navvi_types::Velocity& 
 }  // namespace
 
 
+double stopping_distance(double speed) { return speed * std::abs(speed) / (2.0 * kBrakes); }
+
 double fastest(double round_trip, const navvi_types::Velocity& wanted,
                const std::vector<navvi_types::NearThing>& nearby) {
   constexpr double kReaction = 0.6;  // s
-  constexpr double kBrakes = 2.5;    // m/s^2
   constexpr double kKeeps = 0.1;     // m
   constexpr double kBeside = 0.1;    // share of the speed that is toward what is passed
   constexpr double kCreep = 0.05;    // m/s, that is left to get away

@@ -18,6 +18,9 @@ struct AssistanceConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
+/// m, ahead or back: of a robot that brakes now. \param speed  m/s
+[[nodiscard]] double stopping_distance(double speed);
+
 /// m/s, at which the robot stops before what it drives towards: the round trip and a
 /// person's reaction pass before the wheels brake. No limit without a delay.
 /// \param round_trip  s \param wanted  forward or back \param nearby  in base_link

@@ -112,7 +112,7 @@ class FeedbackNode {
     const bool ahead = !(guidance && guidance->leads()) && inlets_.preview().size() > 1;
     outlets_.show(guide_.order());
     outlets_.show(ahead ? picture::preview_of(inlets_.preview()) : guidance,
-                  ahead ? inlets_.preview() : inlets_.path(), words_, time);
+                  ahead ? inlets_.preview() : inlets_.path(), told->stops_at, words_, time);
   }
 
   void tell(const Output& told, const std::function<void()>& called) {

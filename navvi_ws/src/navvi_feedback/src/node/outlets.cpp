@@ -74,13 +74,14 @@ void Outlets::show(const std::optional<CueEvent>& order) {
 }
 
 void Outlets::show(const std::optional<Guidance>& guidance,
-                   const std::vector<Eigen::Vector2d>& path, const cues::Phrases& words,
+                   const std::vector<Eigen::Vector2d>& path,
+                   const std::optional<Eigen::Vector2d>& stop, const cues::Phrases& words,
                    double time) {
   if (markers_time_ && time - *markers_time_ < kMarkers) return;
   markers_time_ = time;
   const bool turn = order_.stage == CueStage::started && order_.kind() == CueKind::turn_ahead;
   visualization_msgs::MarkerArray markers =
-      picture::guide_markers(guidance, path, words, turn ? order_.text : "");
+      picture::guide_markers(guidance, path, words, turn ? order_.text : "", stop);
   if (markers.markers == shown_.markers) return;
   shown_ = markers;
   picture::stamp(markers, ros::Time::now());

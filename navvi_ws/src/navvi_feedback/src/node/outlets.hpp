@@ -33,9 +33,9 @@ class Outlets {
   void show(const std::optional<CueEvent>& order);
   /// The path and what is written beside it, where they have changed: the turn, where it is the
   /// order that was shown last.
-  /// \param path  m, in map \param time  s
+  /// \param path, stop  m, in map, as guide_markers() \param time  s
   void show(const std::optional<Guidance>& guidance, const std::vector<Eigen::Vector2d>& path,
-            const cues::Phrases& words, double time);
+            const std::optional<Eigen::Vector2d>& stop, const cues::Phrases& words, double time);
 
   /// RViz shows the path again, after it had ended; true once.
   [[nodiscard]] bool is_picture_back() { return std::exchange(picture_back_, false); }

@@ -24,6 +24,7 @@ constexpr double kOutline = 0.08;     // m, of the path, on each side
 constexpr double kPathHeight = 0.08;  // m, above the floor, so that it is not in it
 constexpr double kGoalHeight = 2.5;   // m
 constexpr double kGoalRadius = 1.0;   // m
+constexpr double kStopRadius = 0.4;   // m, about as the robot
 constexpr double kSlight = 0.26;      // rad, about half an hour on the clock: no arrow
 constexpr double kLabelHeight = 0.7;  // m, of the letters
 constexpr int kRingPoints = 48;
@@ -135,15 +136,17 @@ void add_turn(const Guidance& guidance, const std::vector<Eigen::Vector2d>& path
 
 visualization_msgs::MarkerArray guide_markers(const std::optional<Guidance>& guidance,
                                               const std::vector<Eigen::Vector2d>& path,
-                                              const cues::Phrases& words, const std::string& turn) {
+                                              const cues::Phrases& words, const std::string& turn,
+                                              const std::optional<Eigen::Vector2d>& stop) {
   visualization_msgs::MarkerArray array;
   std::vector<Marker>& markers = array.markers;
   markers = {absent("path", 0),  absent("path", 1), absent("goal", 0), absent("goal", 1),
-             absent("label", 0), absent("turn", 0), absent("label", 1)};
+             absent("label", 0), absent("turn", 0), absent("label", 1), absent("stop", 0)};
   if (!guidance || !guidance->leads()) return array;
   add_path(path, markers);
   add_goal(guidance->goal, words, markers);
   add_turn(*guidance, path, turn, markers);
+  if (stop) markers[7] = strip("stop", 0, ring(*stop, kStopRadius), 0.1, kPathHeight + 2.0 * kAbove, kWhite);
   for (Marker& marker : markers) marker.pose.position.z += guidance->floor;
   return array;
 }

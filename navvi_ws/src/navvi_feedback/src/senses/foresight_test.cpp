@@ -71,7 +71,7 @@ TEST_F(FarRobot, has_the_speed_that_it_is_told_and_what_is_near_comes_nearer) {
   drive(2.0, {0.0, 0.0});
   drive(0.3, {0.9, 0.0});
   Observation now;
-  now.measured = Velocity{};
+  now.measured = now.last_measured = Velocity{};
   now.nearby.resize(1);
   now.nearby[0].nearest = {2.0, 0.3};
   now.nearby[0].gap = 1.6;
@@ -79,7 +79,7 @@ TEST_F(FarRobot, has_the_speed_that_it_is_told_and_what_is_near_comes_nearer) {
   EXPECT_NEAR(now.measured->linear, 0.9, 1e-9);
   EXPECT_NEAR(now.nearby[0].nearest.x(), 2.0 - 0.9 * 0.3, 0.03);
   EXPECT_NEAR(now.nearby[0].gap, 1.6 - 0.9 * 0.3, 0.04);
-  now.measured = Velocity{};
+  now.measured = now.last_measured = Velocity{};
   drive(2.0, {0.9, 0.0});
   foresight_.look_ahead(now, std::nullopt, kRoundTrip, time_);
   EXPECT_NEAR(now.measured->linear, 0.0, 1e-9) << "it was told to drive long ago, and is held";

@@ -133,6 +133,7 @@ class Dresser {
     if (marker.action != Marker::ADD) return marker;
     if (marker.ns == "path") return path(marker);
     if (marker.ns == "goal") return marker.type == Marker::CYLINDER ? pole(marker) : ring(marker);
+    if (marker.ns == "stop") return ring(marker);
     if (marker.ns == "turn") return arrow(marker);
     if (marker.ns == "robot" && marker.type == Marker::CYLINDER) return robot(marker);
     if (marker.type == Marker::CUBE_LIST && cubes_ < kVeryMany) return boxes(marker);
