@@ -20,7 +20,8 @@ MarkerArray markers_of(const std::optional<Guidance>& guidance,
                        const std::vector<Eigen::Vector2d>& path,
                        const std::string& turn = "in 4 meters, 3 o'clock",
                        const std::string& language = "en") {
-  return guide_markers(guidance, path, cues::Phrases(kPhrases + language + ".yaml"), turn, std::nullopt);
+  return guide_markers(guidance, path, cues::Phrases(kPhrases + language + ".yaml"), turn,
+                       Eigen::Vector2d(1.0, 2.0));
 }
 
 Guidance following() {

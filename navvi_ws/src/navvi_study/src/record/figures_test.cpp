@@ -37,7 +37,8 @@ class Made : public Trial {
                Fields().set("result", result).set("reason", "goal_reached").set("path_length", 25.0)
                    .set("reroutes", "2").set("cues_spoken", "11").set("sounds_played", "5")
                    .set("patterns_felt", "3").set("missed_messages", "0")
-                   .set("state_step", "6000").set("state_hash", "00ff"));
+                   .set("round_trip", "0.250").set("round_trip_99", "0.400")
+                   .set("link_loss", "0.010").set("state_step", "6000").set("state_hash", "00ff"));
   }
 };
 
@@ -137,6 +138,9 @@ TEST(Figures, are_as_counted_by_hand) {
       {"replan_count", "4"},
       {"reroute_count", "2"},
       {"safe_stop_count", "1"},
+      {"round_trip", "0.250"},
+      {"round_trip_99", "0.400"},
+      {"link_loss", "0.010"},
       {"device_loss_count", "1"},
       {"cues_spoken", "11"},
       {"sounds_played", "5"},

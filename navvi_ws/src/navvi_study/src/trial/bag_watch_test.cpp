@@ -41,7 +41,7 @@ TEST_F(Bag, that_nobody_wants_is_soon_ready_and_never_lost) {
   EXPECT_EQ(bag.verdict(), "none");
 }
 
-TEST_F(Bag, holds_the_trial_up_until_the_recorder_hears_or_twenty_seconds_have_passed) {
+TEST_F(Bag, holds_the_trial_up_until_the_recorder_hears_or_a_minute_has_passed) {
   BagWatch heard(recorder("exec sleep 60"), 10.0);
   EXPECT_FALSE(heard.ready(15.0));
   heard.hears(15.0);
@@ -50,9 +50,9 @@ TEST_F(Bag, holds_the_trial_up_until_the_recorder_hears_or_twenty_seconds_have_p
   heard.kill();
 
   BagWatch deaf(recorder("exec sleep 60"), 10.0);
-  EXPECT_FALSE(deaf.ready(29.9));
-  EXPECT_TRUE(deaf.ready(30.1)) << "without a bag";
-  EXPECT_FALSE(deaf.growing(30.2));
+  EXPECT_FALSE(deaf.ready(69.9));
+  EXPECT_TRUE(deaf.ready(70.1)) << "without a bag";
+  EXPECT_FALSE(deaf.growing(70.2));
   deaf.kill();
   EXPECT_EQ(deaf.verdict(), "bad");
 }
