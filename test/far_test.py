@@ -97,7 +97,7 @@ def summary(folder):
     return dict(zip(lines[0].split(","), lines[1].split(",")))
 
 
-@pytest.mark.parametrize("delay", [0.02, 0.25])
+@pytest.mark.parametrize("delay", [0.02, 0.2])
 def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(session, delay):
     session.wire.delay = delay
     said = session.drive()
