@@ -35,9 +35,11 @@ tests() {  # TIER [FILTER]
       fail "no test of the tier $tier has \"$filter\" in its name; another tier may." 2
     export NAVVI_TEST_CASE=$filter GTEST_FILTER="*$filter*" PYTEST_ADDOPTS="-k $filter"
   fi
+  # Sessions in real time, which quick has one of, are tried again where a machine was too busy; which ones is reported.
   # Twice as many as there are processors: what computes counts as two (PROCESSORS).
-  with_progress "testing" "$log" tests_percent ctest -j"$((2 * $(nproc)))" "${selected[@]}" --output-on-failure \
+  with_progress "testing" "$log" tests_percent ctest -j"$((2 * $(nproc)))" "${selected[@]}" --repeat until-pass:2 --output-on-failure \
     --output-junit "$results.xml" || true
+  sed -n 's/.*Test *#[0-9]*: \([^ ]*\) .*\*\*\*.*/tried twice: \1/p' "$log" | sort -u
   if [[ $tier == release && $filter == . ]]; then
     sanitized_tests "" || status=$?
   fi
