@@ -33,16 +33,14 @@ class GuidedPerson {
     people::Felt motors;
     bool motors_due = false;  ///< they are felt from now on
   };
-  /// \param hand  on the stick \param robot  base_link in map
   /// What the wheels are to do.
   struct Command {
     navvi_types::Velocity velocity;
     double lag = 0.0;  ///< s, of a simulated connection: the age of what it answers
   };
-  /// \return nullopt: nothing is sent
+  /// \param hand  on the stick \param robot  base_link in map \return nullopt: nothing is sent
   std::optional<Command> feed_back(const people::StickAndButtons& hand,
-                                                 const geometry_msgs::Transform& robot,
-                                                 double time);
+                                   const geometry_msgs::Transform& robot, double time);
   [[nodiscard]] const Played& played() const { return played_; }
 
   /// The person hears and feels what was played. \return the stick
