@@ -79,10 +79,10 @@ class Keys:
         with open(self.folder / name) as file:
             return list(csv.DictReader(file))
 
-    def command(self, field="twist.linear.x"):
+    def command(self, field="linear.x"):
         """m/s or rad/s, of the last command."""
         rows = self.rows("commands")
-        return float(rows[-1][f"field.{field}"]) if rows else 0.0
+        return float(rows[-1][f"field.twist.{field}"]) if rows else 0.0
 
     def stands(self, seconds):
         """Whether no command moves the robot for so long."""
