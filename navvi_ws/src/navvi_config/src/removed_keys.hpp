@@ -23,7 +23,7 @@ inline const std::set<std::string>& removed_keys() {
         "cues/route/spot_radius cues/route/still_ahead cues/route/straight_lead cues/route/stray "
         "cues/route/turn_now cues/route/turning_rate cues/route/worse_degrees cues/starting "
         "cues/stuck_angular cues/stuck_linear detection_radius drive/acceleration drive/arm_hold "
-        "drive/assistance/deceleration drive/assistance/half_lane drive/assistance/margin "
+        "drive/assistance "
         "drive/deceleration drive/turn_acceleration driving/cruise driving/dead_zone driving/expo "
         "driving/full_speed driving/gain_error driving/noise driving/slow driving/turn_rate "
         "driving/veer driving/veer_spread feeling/delay feeling/recognised feeling/spread "

@@ -27,6 +27,9 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
   visit(foresight, "foresight", navvi_config::Any{}, "",
         "guidance is ahead of the robot by the measured delay of the connection, where that is "
         "felt, and speed is limited by it");
+  visit(assistance, "assistance", navvi_config::OneOf{{"off", "stop", "steer"}}, "",
+        "before what the robot would hit: leave the command as it is, slow it to a stop, or bend "
+        "it away, too, never against the person's turn and never faster");
   visit(driver, "driver", navvi_config::Any{}, "",
         "the node whose commands are taken, such as /feedback_node; those of any other are ignored "
         "and announced; empty: any node may drive, one at a time");
@@ -96,6 +99,12 @@ void CommandGate::stop(Reason reason) {
 }
 
 navvi_types::Velocity CommandGate::update(const Instant& now) {
+  navvi_types::Velocity wheels = assistance_.assist(held_or_driven(now), now.sim);
+  wheels.angular = std::clamp(wheels.angular, -config_.max_angular, config_.max_angular);
+  return wheels;
+}
+
+navvi_types::Velocity CommandGate::held_or_driven(const Instant& now) {
   expire(now);
   if (!last_valid_) return {};
   if (state_ != State::running) {

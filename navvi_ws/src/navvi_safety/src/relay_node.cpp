@@ -43,11 +43,14 @@ int main(int argc, char** argv) {
     ros::Subscriber commands = node.subscribe<geometry_msgs::TwistStamped, const Command&>(
         "navvi/command", navvi_safety::kCommandQueue, receive, {},
         ros::TransportHints().tcpNoDelay());
+    ros::Subscriber near;
+    if (config.gate.assistance != "off")
+      near = navvi_safety::see_by(node, gate, navvi_safety::now);
     std::optional<navvi_types::DriveState> published;
     const auto publish_state = [&] {
       const auto now = gate.drive_state(navvi_types::to_ns(ros::Time::now()));
       if (published && published->state == now.state && published->reason == now.reason &&
-          published->intruder == now.intruder)
+          published->intruder == now.intruder && published->assistance == now.assistance)
         return;
       state.publish(navvi_types::to_msg(now));
       published = now;

@@ -270,8 +270,10 @@ std::optional<CueEvent> from_msg(const navvi_msgs::Cue& msg) {
 std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg) {
   const auto state = from_number<DriveState::State>(msg.state);
   const auto reason = from_number<DriveState::Reason>(msg.reason);
-  if (!state || !reason) return std::nullopt;
-  return DriveState{*state, *reason, msg.rejected, to_ns(msg.header.stamp), msg.intruder};
+  const auto assistance = from_number<DriveState::Assistance>(msg.assistance);
+  if (!state || !reason || !assistance) return std::nullopt;
+  return DriveState{*state,       *reason,    msg.rejected, to_ns(msg.header.stamp),
+                    msg.intruder, *assistance};
 }
 
 std::optional<LinkState> from_msg(const navvi_msgs::LinkState& msg) {
@@ -421,6 +423,7 @@ navvi_msgs::DriveState to_msg(const DriveState& state) {
   msg.reason = static_cast<std::uint8_t>(state.reason);
   msg.rejected = state.rejected;
   msg.intruder = state.intruder;
+  msg.assistance = static_cast<std::uint8_t>(state.assistance);
   return msg;
 }
 

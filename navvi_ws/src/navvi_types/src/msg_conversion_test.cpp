@@ -224,6 +224,7 @@ navvi_msgs::DriveState drive_state() {
   msg.header = header("");
   msg.state = navvi_msgs::DriveState::STOPPED;
   msg.reason = navvi_msgs::DriveState::COMMAND_INVALID;
+  msg.assistance = navvi_msgs::DriveState::STEERS_LEFT;
   msg.rejected = 3;
   msg.intruder = "/teleop";
   return msg;
@@ -508,6 +509,7 @@ TEST(MsgConversion, AConstantThatIsNoneDropsItsMessage) {
   expect_dropped(cue(), &C::priority, Priority{});
   expect_dropped(drive_state(), &D::state, DriveState::State{});
   expect_dropped(drive_state(), &D::reason, DriveState::Reason{});
+  expect_dropped(drive_state(), &D::assistance, DriveState::Assistance{});
   expect_dropped(link_state(), &navvi_msgs::LinkState::late, LinkState::Late{});
   expect_dropped(navvi_msgs::TrialState(), &navvi_msgs::TrialState::state, TrialState::State{});
   expect_dropped(navvi_msgs::TrialRequest(), &navvi_msgs::TrialRequest::request,
@@ -550,6 +552,7 @@ TEST(MsgConversion, EachEnumerationHasTheConstantsOfItsMessage) {
   EXPECT_EQ(words(Priority{}), constants_of<navvi_msgs::Cue>("priority"));
   EXPECT_EQ(words(DriveState::State{}), constants_of<navvi_msgs::DriveState>("state"));
   EXPECT_EQ(words(DriveState::Reason{}), constants_of<navvi_msgs::DriveState>("reason"));
+  EXPECT_EQ(words(DriveState::Assistance{}), constants_of<navvi_msgs::DriveState>("assistance"));
   EXPECT_EQ(words(LinkState::Late{}), constants_of<navvi_msgs::LinkState>("late"));
 }
 

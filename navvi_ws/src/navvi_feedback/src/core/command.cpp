@@ -7,6 +7,8 @@
 namespace navvi_feedback::core {
 namespace {
 
+constexpr double kLateShare = 0.25;  // of a command by a stick that comes late
+
 bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
 
 }  // namespace
@@ -35,24 +37,21 @@ std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt)
   return velocity || last ? std::optional(commanded) : std::nullopt;
 }
 
-/// What the person asked for stays the measure of being stuck. \return the share that is left
-double Guide::Parts::assist(std::optional<Velocity>& command, const Observation& now) const {
-  if (!command) return 1.0;
-  double share = assistance.share(*command, now.nearby, now.links.proximity == Link::alive);
-  const double speed = std::abs(command->linear);
-  if (const double most = drive::fastest(now.connection.foresight, *command, now.nearby);
+/// What the person asked for stays the measure of being stuck.
+void Guide::Parts::limit(Velocity& command, const Observation& now) const {
+  double share = 1.0;
+  const double speed = std::abs(command.linear);
+  if (const double most = drive::fastest(now.connection.foresight, command, now.nearby);
       speed > most)
-    share = std::min(share, most / speed);
+    share = most / speed;
   if (now.devices.hands.late) {
-    share = std::min(share, config.drive.assistance.least);
-    command->angular *= config.drive.assistance.least;
+    share = std::min(share, kLateShare);
+    command.angular *= kLateShare;
   }
-  command->linear *= share;
-  const double turning = std::abs(command->angular);
+  command.linear *= share;
+  const double turning = std::abs(command.angular);
   const double most = sounds.most_rate().value_or(turning);
-  if (turning <= most) return share;
-  command->angular *= most / turning;
-  return std::min(share, most / turning);
+  if (turning > most) command.angular *= most / turning;
 }
 
 }  // namespace navvi_feedback::core

@@ -17,7 +17,6 @@ Guide::Parts::Parts(const GuideConfig::Values& config, const std::filesystem::pa
     : config(config),
       senses(config.kStale),
       drive(config.drive),
-      assistance(config.drive.assistance),
       buttons(config.buttons),
       touch(config.haptics),
       sounds(config.sounds),
@@ -56,7 +55,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   out.command = command(devices, dt);
   Observation now = observe(devices, dt, time);
   ask_side(now, time, out);
-  out.share = assist(out.command, now);
+  if (out.command) limit(*out.command, now);
   foresight.sent(out.command.value_or(Velocity{}), time);
   if (const auto& robot = now.devices.robot; robot && now.connection.foresight > 0.0)
     out.stops_at = robot->to_parent({drive::stopping_distance(now.motion().linear), 0.0});
@@ -67,7 +66,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   decided = policy.update(now, asked, time);
   teacher.join(decided);
   if (!teacher.speaks()) lesson.reset();
-  touch.begin(decided, now.contacts, teacher.taught(), now.lead == Lead::hand);
+  touch.begin(decided, now, teacher.taught());
   decided.erase(std::remove_if(decided.begin(), decided.end(),
                                [](const cues::Cue& cue) { return cue.felt; }),
                 decided.end());

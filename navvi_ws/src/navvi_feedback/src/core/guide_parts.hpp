@@ -13,7 +13,7 @@
 #include "cues/cue_policy.hpp"
 #include "cues/cue_queue.hpp"
 #include "cues/heard_words.hpp"
-#include "drive/assistance.hpp"
+#include "drive/braking.hpp"
 #include "haptics/rumble_output.hpp"
 #include "lead/course.hpp"
 #include "lead/following.hpp"
@@ -43,7 +43,8 @@ struct Guide::Parts {
   [[nodiscard]] Observation observe(const Devices& devices, double dt, double time);
   [[nodiscard]] Lead leading(const Observation& now) const;
   void ask_side(Observation& now, double time, Output& out);
-  [[nodiscard]] double assist(std::optional<Velocity>& command, const Observation& now) const;
+  /// Slows a command by the delay of the connection and by what leads.
+  void limit(Velocity& command, const Observation& now) const;
   /// Carries out what lesson and menu make of the buttons. \return what is left to be answered
   cues::Asked obey(const Observation& now, double dt, Output& out);
   /// \return the words of a choice that the planner has agreed to now
@@ -95,7 +96,6 @@ struct Guide::Parts {
   senses::Senses senses;
   senses::Foresight foresight;
   drive::Drive drive;
-  drive::Assistance assistance;
   drive::Buttons buttons;
   HapticDisplay touch;
   AuditoryDisplay sounds;

@@ -153,16 +153,10 @@ class Driven : public GuideTest {
     for (int tick = 0; tick < 125; ++tick, time_ += 0.02) {
       input_.hands.axes = tick < 25 ? std::vector<double>(axes.size()) : axes;
       input_.hands.buttons = buttons;
-      if (gap_)
-        guide.take(Proximity{0, {{ThingClass::shelf, 1, *gap_, {0.8, 0.0}, false}}}, time_);
       output = beat(guide, input_, time_);
     }
-    share_ = output.share;
     return output.command.value().linear;
   }
-
-  std::optional<double> gap_;
-  double share_ = 1.0;
 };
 
 TEST_F(Driven, by_the_hand_that_is_wanted) {
@@ -180,19 +174,6 @@ TEST_F(Driven, only_while_the_button_for_it_is_held) {
 TEST_F(Driven, without_that_button_by_keys) {
   input_.keyboard = true;
   EXPECT_GT(speed("{drive: {enable: 9}}", {0.0, 1.0}), 0.5);
-}
-
-TEST_F(Driven, more_slowly_or_not_at_all_before_a_shelf_where_that_is_wanted) {
-  gap_ = 0.1;
-  const double full = speed("{}", {0.0, 1.0});
-  EXPECT_GT(full, 0.8);
-  EXPECT_EQ(share_, 1.0);
-  EXPECT_NEAR(speed("{drive: {assistance: {mode: slow}}}", {0.0, 1.0}), 0.25 * full, 1e-6);
-  EXPECT_EQ(speed("{drive: {assistance: {mode: stop}}}", {0.0, 1.0}), 0.0);
-  EXPECT_EQ(share_, 0.0);
-  gap_.reset();
-  EXPECT_NEAR(speed("{drive: {assistance: {mode: stop}}}", {0.0, 1.0}), 0.25 * full, 1e-6)
-      << "nothing is known of what is near";
 }
 
 TEST_F(GuideTest, nothing_moves_before_the_person_has_begun_the_trial) {

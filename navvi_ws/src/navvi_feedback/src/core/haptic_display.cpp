@@ -47,6 +47,14 @@ std::optional<haptics::Pattern> pattern_of(const cues::Cue& cue, bool deaf) {
   return deaf && alarm ? std::optional(Pattern::stopped) : std::nullopt;
 }
 
+haptics::Zone side_of(haptics::Pattern pattern, DriveState::Assistance assistance) {
+  using Assistance = DriveState::Assistance;
+  if (pattern != haptics::Pattern::assisted) return haptics::Zone::center;
+  return assistance == Assistance::steers_left    ? haptics::Zone::left
+         : assistance == Assistance::steers_right ? haptics::Zone::right
+                                                  : haptics::Zone::center;
+}
+
 }  // namespace
 
 void HapticDisplay::use(const haptics::HapticsConfig& config) {
@@ -69,14 +77,14 @@ bool HapticDisplay::report(Link audio, bool motors) {
   return begins;
 }
 
-void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const std::vector<Contact>& contacts,
-                          const lessons::Taught& taught, bool by_hand) {
+void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const Observation& now,
+                          const lessons::Taught& taught) {
   if (!config_.enabled || !config_.patterns) return;
   if (taught.pattern) patterns_.begin(*taught.pattern, taught.side);
   for (const cues::Cue& cue : cues)
-    if (const auto pattern = pattern_of(cue, deaf_); pattern && !(by_hand && is_way(*pattern)))
-      patterns_.begin(*pattern);
-  for (const Contact& contact : contacts) {
+    if (const auto pattern = pattern_of(cue, deaf_); pattern && !(now.lead == Lead::hand && is_way(*pattern)))
+      patterns_.begin(*pattern, side_of(*pattern, now.assistance));
+  for (const Contact& contact : now.contacts) {
     patterns_.begin(cues::is_structure(contact.thing_class) ? haptics::Pattern::hit_shelf
                                                             : haptics::Pattern::hit_obstacle,
                     zone_of(contact));

@@ -28,9 +28,9 @@ class HapticDisplay {
   void begin(haptics::Pattern pattern) { patterns_.begin(pattern); }
   /// Where the goal is. \param angle  rad, clockwise \param distance  m
   void answer(double angle, double distance);
-  /// The patterns of what is said, was touched and is taught. \param by_hand  pulses lead
-  void begin(const std::vector<cues::Cue>& cues, const std::vector<Contact>& contacts,
-             const lessons::Taught& taught, bool by_hand);
+  /// The patterns of what is said, was touched and is taught.
+  void begin(const std::vector<cues::Cue>& cues, const Observation& now,
+             const lessons::Taught& taught);
 
   /// There is to be sound and is none, and touch is to do the work of words.
   [[nodiscard]] bool deaf() const { return deaf_; }

@@ -28,7 +28,6 @@ void DriveConfig::describe(navvi_config::Visitor& visit) {
   visit(max_reverse, "max_reverse", Range{0.0, 1.5}, "m/s", "speed at full stick back");
   visit(max_turn, "max_turn", Range{0.1, 2.5}, "rad/s",
         "turning speed at full stick left or right");
-  visit.group("assistance", assistance);
 }
 
 Stick Drive::shaped(const Stick& stick) const {

@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "drive/assistance.hpp"
 #include "navvi_config/field.hpp"
 #include "navvi_feedback/drive/input_state.hpp"
 #include "types.hpp"
@@ -23,7 +22,6 @@ struct DriveConfig {
   double turn_acceleration = 4.0;  ///< rad/s^2, limit on changes of turning speed
   /// s, how long the stick must be neutral before it moves anything
   static constexpr double kArmHold = 0.3;
-  AssistanceConfig assistance;
 
   void describe(navvi_config::Visitor& visit);
 };

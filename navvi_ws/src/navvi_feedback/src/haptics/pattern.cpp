@@ -20,10 +20,11 @@ constexpr double kTap = 0.4;  // s, a tap of an answer and the pause after it
 constexpr Beat kRest = {0.1, 0.0, 0.0};
 
 const std::vector<Beat>& beats(Pattern pattern) {
-  static const std::array<std::vector<Beat>, 12> all = {{
+  static const std::array<std::vector<Beat>, 13> all = {{
       {{0.5, 1.0, 1.0}, kRest},
       {{0.1, 0.5, 0.5}, kRest, {0.1, 0.5, 0.5}, kRest},
       {{0.2, 0.5, 0.5}, kRest},
+      {{0.4, 0.6, 0.6, true}, kRest},
       {{0.12, 0.6, 0.0}, {0.06, 0.0, 0.0}, {0.12, 0.0, 0.6}, kRest},
       {{0.15, 0.3, 0.3}, kRest, {0.15, 0.6, 0.6}, kRest, {0.3, 1.0, 1.0}, kRest},
       {{0.25, 0.5, 0.5, true},

@@ -29,7 +29,8 @@ constexpr double kWide = 0.7;
 constexpr int kAside = 4;
 
 bool sided(Pattern pattern) {
-  return pattern == Pattern::hit_obstacle || pattern == Pattern::hit_shelf;
+  return pattern == Pattern::assisted || pattern == Pattern::hit_obstacle ||
+         pattern == Pattern::hit_shelf;
 }
 
 }  // namespace

@@ -44,8 +44,7 @@ DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
 }  // namespace
 
 DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
-                            const std::string& input, bool live, bool felt,
-                            double assistance) {
+                            const std::string& input, bool live, bool felt) {
   DiagnosticStatus result;
   // Whether anything can be felt.
   std::string state = input == "keyboard" ? "off" : live ? "works" : "missing";
@@ -64,7 +63,6 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
   }
   if (!felt) state = "off";
   add(result, "input", input);
-  add(result, "assistance", std::to_string(assistance));
   add(result, "state", state);
   return result;
 }

@@ -22,10 +22,9 @@ namespace navvi_feedback::node {
 /// \param input  pad, keyboard or topic
 /// \param live   the stick is alive
 /// \param felt   false: the motors stay off by intent
-/// \param assistance  [0, 1], the share of the person's speed that it lets through
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus pad_status(
     const std::optional<devices::Gamepad::Status>& pad, const std::string& input, bool live,
-    bool felt, double assistance = 1.0);
+    bool felt);
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus audio_status(const devices::Mixer::Status& mixer);
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus speech_status(
     const devices::Speaker::Status& speaker, const std::string& voice);

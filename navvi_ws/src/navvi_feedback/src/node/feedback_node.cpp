@@ -105,7 +105,6 @@ class FeedbackNode {
     if (!told) return;
     inlets_.forget_buttons();
     live_ = devices.hands.live;
-    share_ = told->share;
     if (live_) outlets_.send(devices.hands);
     tell(*told, called);
     const auto guidance = guide_.guidance_fresh(time) ? guide_.guidance() : std::nullopt;
@@ -146,7 +145,7 @@ class FeedbackNode {
     if (const auto notice = pad ? heartbeat_.notice(*pad, now()) : std::nullopt)
       ROS_WARN("%s", notice->c_str());
     array.status = {pad_status(pad, devices::to_string(devices_.source().kind()), live_,
-                               config_.feedback->haptics.enabled, share_),
+                               config_.feedback->haptics.enabled),
                     audio_status(devices_.audio()),
                     speech_status(devices_.voice(), config_.speaker.voice),
                     latency_status(devices_.latencies(), guide_.learnt()), beat_status(beat_)};
@@ -169,7 +168,6 @@ class FeedbackNode {
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
   bool live_ = false;       ///< the stick, at the last beat
-  double share_ = 1.0;      ///< of the person's speed that assistance lets through, likewise
   double last_tick_ = 0.0;  // s, of now()
 };
 

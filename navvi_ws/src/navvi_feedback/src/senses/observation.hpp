@@ -57,6 +57,7 @@ struct Observation {
   std::optional<Velocity> measured;       ///< nullopt while the odometry is missing or stale
   Velocity last_measured;                 ///< the latest, however old
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
+  DriveState::Assistance assistance = DriveState::Assistance::nothing;  ///< likewise
   std::vector<NearThing> nearby;          ///< the latest; empty if stale
   std::vector<Contact> contacts;          ///< begun since the last tick
 

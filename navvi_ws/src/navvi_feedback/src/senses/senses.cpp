@@ -29,6 +29,7 @@ void Senses::take(const Guidance& guidance, double time) {
 
 void Senses::take(const DriveState& state, double /*time*/) {
   gate_ = state.state;
+  assistance_ = state.assistance;
   intruder_ = !state.intruder.empty();
 }
 
@@ -48,6 +49,7 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   if (now.links.simulator == Link::alive) now.measured = motion_.value;
   now.last_measured = motion_.value.value_or(Velocity{});
   now.gate = gate_;
+  now.assistance = assistance_;
   if (now.links.proximity == Link::alive) now.nearby = *nearby_.value;
   now.contacts = std::exchange(contacts_, {});
   if (connection_.value) {
@@ -66,6 +68,7 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   now.trial = trial_.state;
   now.notices = devices.states;
   if (slow_) now.notices.push_back(CueKind::connection_slow);
+  if (assistance_ != DriveState::Assistance::nothing) now.notices.push_back(CueKind::assisted);
   if (intruder_) now.notices.push_back(CueKind::intruder);
   if (record_lost(time)) now.notices.push_back(CueKind::record_lost);
   return now;

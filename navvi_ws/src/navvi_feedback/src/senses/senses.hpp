@@ -65,6 +65,7 @@ class Senses {
   Latest<LinkState> connection_;
   double turned_ = 0.0;  ///< rad, counter-clockwise, since that guidance
   std::optional<DriveState::State> gate_;
+  DriveState::Assistance assistance_ = DriveState::Assistance::nothing;
   bool intruder_ = false;  ///< that gate ignores another node's commands
   TrialState trial_;
   std::optional<double> trial_time_;  ///< when it came

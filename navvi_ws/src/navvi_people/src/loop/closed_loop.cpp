@@ -126,7 +126,7 @@ void ClosedLoop::sense() {
     published_.proximity =
         navvi_types::to_msg(session_.world().proximity(config_.sim.detection_radius));
     const auto proximity = node::from_msg(*published_.proximity);
-    if (proximity && !setting_.senses) guided_.take(*proximity, time());
+    if (proximity && !setting_.senses) sense_near(*proximity);
     if (proximity) sight_.nearby = proximity->things;
   }
   if (session_.due(navvi_sim::live::kObstaclesRate)) {
@@ -137,13 +137,18 @@ void ClosedLoop::sense() {
   if (setting_.senses) sense_by_robot();
 }
 
+void ClosedLoop::sense_near(const navvi_types::Proximity& proximity) {
+  gate_.see(proximity.things, instant());
+  guided_.take(proximity, time());
+}
+
 void ClosedLoop::sense_by_robot() {
   RobotSenses::News news = setting_.senses->look(session_);
   for (const navvi_types::Contact& contact : news.contacts)
     if (const auto felt = node::from_msg(navvi_types::to_msg(contact))) guided_.take(*felt, time());
   if (news.proximity)
     if (const auto proximity = node::from_msg(navvi_types::to_msg(*news.proximity)))
-      guided_.take(*proximity, time());
+      sense_near(*proximity);
   perceived_ = std::nullopt;
   if (news.obstacles) perceived_ = node::from_msg(navvi_types::to_msg(*news.obstacles));
   if (perceived_) navigation_.set_obstacles(*perceived_, time());

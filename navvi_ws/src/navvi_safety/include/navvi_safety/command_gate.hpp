@@ -7,6 +7,7 @@
 #include <string>
 
 #include "navvi_config/field.hpp"
+#include "navvi_safety/assistance.hpp"
 #include "navvi_safety/link_meter.hpp"
 
 namespace navvi_safety {
@@ -27,6 +28,7 @@ struct CommandGateConfig {
   static constexpr double kAhead = 0.3;      ///< s, a stamp farther ahead is rejected
   static constexpr double kLateShare = 0.4;  ///< of a command that comes late
   bool foresight = true;
+  std::string assistance = "off";  ///< off, stop or steer
   double max_linear = 1.5;
   double max_angular = 2.5;
   /// commands beyond this many times a limit are rejected
@@ -51,7 +53,8 @@ class CommandGate {
   using State = navvi_types::DriveState::State;
   using Reason = navvi_types::DriveState::Reason;
 
-  explicit CommandGate(const CommandGateConfig& config) : config_(config) {}
+  explicit CommandGate(const CommandGateConfig& config)
+      : config_(config), assistance_(config.assistance) {}
 
   /// True if the node may drive: its commands may be received. One that may not is named by
   /// drive_state() from then on. \param link  number of the connection that its command came by,
@@ -69,12 +72,17 @@ class CommandGate {
   /// before each update, and until the command was neutral after that.
   void stop(Reason reason);
 
+  /// What is near the robot. \param nearby  in base_link
+  void see(const std::vector<navvi_types::NearThing>& nearby, const Instant& now) {
+    assistance_.see(nearby, now.sim);
+  }
+
   /// The velocity for the wheels at `now`. Call it at every control step.
   [[nodiscard]] navvi_types::Velocity update(const Instant& now);
 
   /// As of the last call. \param stamp  ns, of the value
   [[nodiscard]] navvi_types::DriveState drive_state(std::int64_t stamp) const {
-    return {state_, reason_, rejected_, stamp, intruder_};
+    return {state_, reason_, rejected_, stamp, intruder_, assistance_.does()};
   }
   /// As of the last command. \param stamp  ns, of the value
   [[nodiscard]] navvi_types::LinkState link_state(std::int64_t stamp) const;
@@ -85,11 +93,14 @@ class CommandGate {
   [[nodiscard]] unsigned clamped() const { return clamped_; }
 
  private:
+  /// The person's, or nothing while the wheels are held.
+  [[nodiscard]] navvi_types::Velocity held_or_driven(const Instant& now);
   /// Drops a command that is older than the timeout; wheels that it drove are stopped.
   void expire(const Instant& now);
 
   CommandGateConfig config_;
   LinkMeter link_meter_;
+  Assistance assistance_;
   navvi_types::Velocity command_;
   std::optional<Instant> last_valid_;
   std::optional<Instant> neutral_since_;

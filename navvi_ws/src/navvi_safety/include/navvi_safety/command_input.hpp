@@ -1,9 +1,10 @@
 #pragma once
 
 #include <geometry_msgs/TwistStamped.h>
-#include <ros/message_event.h>
+#include <ros/ros.h>
 
 #include <boost/weak_ptr.hpp>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -36,5 +37,9 @@ class CommandInput {
   std::vector<std::pair<boost::weak_ptr<ros::M_string>, unsigned>> links_;  ///< that still live
   unsigned last_link_ = 0;
 };
+
+/// Shows the gate what is near, by navvi/proximity.
+[[nodiscard]] ros::Subscriber see_by(ros::NodeHandle& node, CommandGate& gate,
+                                     const std::function<Instant()>& now);
 
 }  // namespace navvi_safety

@@ -62,7 +62,7 @@ class SimNode {
   navvi_safety::LinkOutlet link_{node_};
   live::Pacer pacer_;
   int exit_code_ = 0;
-  ros::Subscriber commands_, clocks_;
+  ros::Subscriber commands_, near_, clocks_;
   ros::WallTimer timer_;
 };
 
@@ -89,6 +89,8 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
   commands_node.setCallbackQueue(&commands_queue_);
   commands_ = commands_node.subscribe("navvi/command", navvi_safety::kCommandQueue, &SimNode::receive,
                                       this, ros::TransportHints().tcpNoDelay());
+  if (config_.gate.assistance != "off")
+    near_ = navvi_safety::see_by(commands_node, gate_, [this] { return instant(); });
   clocks_ = commands_node.subscribe("clock", 100, &SimNode::hear_clock, this,
                                     ros::TransportHints().tcpNoDelay());
   timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);

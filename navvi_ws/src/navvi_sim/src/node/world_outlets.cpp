@@ -120,7 +120,8 @@ void WorldOutlets::publish_state() {
 
 void WorldOutlets::publish_drive_state(const navvi_types::DriveState& drive) {
   if (drive_state_ && drive_state_->state == drive.state && drive_state_->reason == drive.reason &&
-      drive_state_->rejected == drive.rejected && drive_state_->intruder == drive.intruder)
+      drive_state_->rejected == drive.rejected && drive_state_->intruder == drive.intruder &&
+      drive_state_->assistance == drive.assistance)
     return;
   drive_.publish(navvi_types::to_msg(drive));
   drive_state_ = drive;

@@ -131,19 +131,30 @@ double spl(const Trial& trial) {
   return shortest / std::max(number_of(sums_of(trial), "path_length"), shortest);
 }
 
+/// s, from rows of a type that count to the next one of it.
+template <typename Counts>
+std::string time_in(const Trial& trial, const char* type, const Counts& counts_row) {
+  double sum = 0.0, since = 0.0;
+  bool inside = false;
+  for (const Row& row : trial.rows) {
+    if (row.type != type) continue;
+    if (inside) sum += time_of(row) - since;
+    inside = counts_row(row);
+    since = time_of(row);
+  }
+  return text_of(inside ? sum + trial.end() - since : sum);
+}
+
 /// s, in a state of the guidance.
 Of in_state(const char* state) {
   return [=](const Trial& trial) {
-    double sum = 0.0, since = 0.0;
-    bool inside = false;
-    for (const Row& row : trial.rows) {
-      if (row.type != "GUIDANCE") continue;
-      if (inside) sum += time_of(row) - since;
-      inside = row.fields.get("state") == state;
-      since = time_of(row);
-    }
-    return text_of(inside ? sum + trial.end() - since : sum);
+    return time_in(trial, "GUIDANCE",
+                   [=](const Row& row) { return row.fields.get("state") == state; });
   };
+}
+std::string assisted(const Trial& trial) {
+  return time_in(trial, "ASSISTED",
+                 [](const Row& row) { return row.fields.get("does") != "nothing"; });
 }
 
 // Contacts.
@@ -342,6 +353,8 @@ std::vector<Figure> all_figures() {
        last("TRIAL_END", "round_trip")},
       {"round_trip_99", "s", "highest 99th percentile of 5 s", "", last("TRIAL_END", "round_trip_99")},
       {"link_loss", "", "share of the commands that never came", "", last("TRIAL_END", "link_loss")},
+      {"assisted_s", "s", "in which the robot slowed or steered by itself before what it would hit", "",
+       assisted},
       {"device_loss_count", "", "losses of pad, audio or voice", "", counts(is_device_loss)},
       {"cues_spoken", "", "sentences", "", as_summed("cues_spoken")},
       {"sounds_played", "", "short sounds", "", sounds_played},

@@ -93,6 +93,9 @@ Made minute() {
   trial.add(145.0, "GUIDANCE", Fields().set("state", "no_route"));
   trial.add(150.0, "GUIDANCE", Fields().set("state", "off_mesh"));
   trial.add(152.0, "GUIDANCE", Fields().set("state", "following"));
+  trial.add(153.0, "ASSISTED", Fields().set("does", "steers_left"));
+  trial.add(154.0, "ASSISTED", Fields().set("does", "slows"));
+  trial.add(154.5, "ASSISTED", Fields().set("does", "nothing"));
   trial.add(160.0, "GOAL_REACHED", Fields().set("elapsed", 60.0)).end(160.0);
   for (int i = 0; i <= 3000; ++i) {
     const double t = 0.02 * i;  // s since the start
@@ -141,6 +144,7 @@ TEST(Figures, are_as_counted_by_hand) {
       {"round_trip", "0.250"},
       {"round_trip_99", "0.400"},
       {"link_loss", "0.010"},
+      {"assisted_s", "1.500"},
       {"device_loss_count", "1"},
       {"cues_spoken", "11"},
       {"sounds_played", "5"},

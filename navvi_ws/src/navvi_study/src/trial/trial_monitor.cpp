@@ -173,11 +173,7 @@ std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
   driven_.odometry = odometry;
   if (odometry.stamp < driven_.next_progress) return {};
   driven_.next_progress = odometry.stamp + ns(config_.kProgressPeriod);
-  record::Fields progress = tally_fields();
-  if (const auto pad = devices_.find("pad"); pad != devices_.end())
-    if (const auto share = pad->second.traits.find("assistance"); share != pad->second.traits.end())
-      progress.set("assistance", share->second);
-  return {{"PROGRESS", progress, odometry.stamp, false}};
+  return {{"PROGRESS", tally_fields(), odometry.stamp, false}};
 }
 
 void TrialMonitor::collision(const Contact* contact, bool shelf, std::int64_t stamp,
@@ -430,6 +426,8 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
   if (reason == DriveState::Reason::clock_jumped && reason != before) clock_jumped_ = true;
   std::vector<Event> events;
   if (!inside) return events;
+  if (const auto before_it = std::exchange(assists_, drive.assistance); before_it != assists_)
+    events.push_back({"ASSISTED", place().set("does", to_string(assists_)), drive.stamp});
   if (drive.intruder != intruder_before)
     events.push_back({"INTRUDER", place().set("node", drive.intruder), drive.stamp});
   if (reason == DriveState::Reason::none || reason == before) return events;

@@ -227,6 +227,7 @@ class TrialMonitor {
   std::vector<LinkState> links_;
   DriveState::Reason stopped_for_ =
       DriveState::Reason::none;  ///< by the last stage before the wheels
+  DriveState::Assistance assists_ = DriveState::Assistance::nothing;  ///< likewise
   std::string intruder_;         ///< that stage ignores this node
   std::map<std::string, DeviceReport> devices_;
   std::vector<DeviceReport> latencies_;   ///< the last ones, as an end may be told after it

@@ -132,12 +132,17 @@ TEST_F(Monitor, takes_a_shelf_as_near_within_one_meter_only) {
   EXPECT_TRUE(monitor_.observe(near(12.0, "shelf", 1.05)).empty()) << "still within the margin";
 }
 
-TEST_F(Monitor, tells_of_assistance_as_it_goes) {
-  Odometry drives;
-  drives.stamp = 11 * kSecond;
-  static_cast<void>(
-      monitor_.observe(DeviceReport{11 * kSecond, "pad", {}, {{"assistance", "0.5"}}}));
-  EXPECT_EQ(monitor_.observe(drives).at(0).fields.get("assistance"), "0.5");
+TEST_F(Monitor, reports_when_the_robot_begins_and_ceases_to_steer_by_itself) {
+  DriveState drive;
+  drive.stamp = 11 * kSecond;
+  EXPECT_TRUE(monitor_.observe(drive).empty());
+  drive.assistance = DriveState::Assistance::steers_left;
+  const auto begun = monitor_.observe(drive);
+  EXPECT_EQ(types(begun), Names{"ASSISTED"});
+  EXPECT_EQ(begun.at(0).fields.get("does"), "steers_left");
+  EXPECT_TRUE(monitor_.observe(drive).empty()) << "goes on";
+  drive.assistance = DriveState::Assistance::nothing;
+  EXPECT_EQ(monitor_.observe(drive).at(0).fields.get("does"), "nothing");
 }
 
 TEST_F(Monitor, ends_with_the_heading_and_what_is_on_either_side) {

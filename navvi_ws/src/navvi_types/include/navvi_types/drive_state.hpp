@@ -23,6 +23,8 @@ struct DriveState {
     clock_jumped,    ///< ROS time jumped
     emergency_stop,  ///< the robot's is pressed
   };
+  /// What is done to the person's command before what the robot would hit.
+  enum class Assistance : std::uint8_t { nothing, slows, steers_left, steers_right };
 
   State state = State::waiting;
   Reason reason = Reason::none;
@@ -30,6 +32,7 @@ struct DriveState {
   std::int64_t stamp = 0;      ///< ns, ROS time
   /// The node that sent commands last though it may not drive, or beside another of its name.
   std::string intruder = {};
+  Assistance assistance = Assistance::nothing;
 };
 
 [[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::State) {
@@ -38,6 +41,9 @@ struct DriveState {
 [[nodiscard]] constexpr std::array<const char*, 6> names(DriveState::Reason) {
   return {"none",           "command_lost", "command_invalid",
           "driver_changed", "clock_jumped", "emergency_stop"};
+}
+[[nodiscard]] constexpr std::array<const char*, 4> names(DriveState::Assistance) {
+  return {"nothing", "slows", "steers_left", "steers_right"};
 }
 
 }  // namespace navvi_types

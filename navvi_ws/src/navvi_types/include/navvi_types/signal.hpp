@@ -12,6 +12,7 @@ enum class Pattern : std::uint8_t {
   sample,        ///< one long pulse: how strong the motors are set
   ready,         ///< two light taps: a trial waits for the person
   begun,         ///< one light tap: it runs
+  assisted,      ///< a soft pulse, on the side to which the robot steers by itself
   rerouted,      ///< a light tap on the left, then on the right
   arrived,       ///< three pulses that rise
   no_sound,      ///< three soft pulses: what the voice cannot say
@@ -23,8 +24,8 @@ enum class Pattern : std::uint8_t {
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
 /// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 12> names(Pattern) {
-  return {"sample", "ready", "begun",   "rerouted",     "arrived",  "no_sound",
+[[nodiscard]] constexpr std::array<const char*, 13> names(Pattern) {
+  return {"sample", "ready", "begun", "assisted", "rerouted",     "arrived",  "no_sound",
           "answer", "stuck",  "halt",  "stopped", "hit_obstacle", "hit_shelf"};
 }
 

@@ -21,7 +21,6 @@ struct Output {
   double lag = 0.0;    ///< s, of a simulated connection: the age of what the command answers
   /// m, in map, where the robot will stand if the stick is let go now; nullopt without a delay
   std::optional<Eigen::Vector2d> stops_at;
-  double share = 1.0;  ///< [0, 1], of the person's speed that assistance lets through
 
   haptics::Rumble rumble;                     ///< of the motors, now
   bool rumble_due = false;                    ///< other drivers are to be sent it

@@ -116,6 +116,7 @@ class ClosedLoop {
   [[nodiscard]] bool turn_wheels();
   void sense();
   void sense_by_robot();
+  void sense_near(const navvi_types::Proximity& proximity);
   void navigate();
   void require_map() const;
   void feed_back();
