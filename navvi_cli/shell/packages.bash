@@ -9,7 +9,7 @@ run_packages=(
 )
 # Without these a session runs, but without its picture, screen readers in it, drawings, `watch speech:=true` or the Tab key.
 comfort_packages=(
-  rviz libgl1-mesa-dri at-spi2-core dbus-bin x11-utils python3-matplotlib python3-argcomplete
+  rviz libgl1-mesa-dri at-spi2-core dbus-bin x11-utils python3-matplotlib python3-argcomplete fonts-dejavu-core python3-numpy python3-pil
   python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
 )
 session_packages=(
@@ -21,7 +21,7 @@ session_packages=(
 # A study's report draws and counts with these; a session does not need them.
 report_packages=(python3-jinja2 python3-pandas python3-scipy python3-statsmodels)
 test_packages=(
-  libbenchmark-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest python3-numpy python3-pil
+  libbenchmark-dev pocketsphinx pocketsphinx-en-us python3-pytest python3-rostest
   shellcheck xvfb imagemagick sox openbox xdotool lintian catkin-lint
   python3-pyatspi dbus-daemon procps zsh
   "${report_packages[@]}"
