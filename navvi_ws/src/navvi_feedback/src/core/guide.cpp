@@ -58,7 +58,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   if (out.command) limit(*out.command, now);
   foresight.sent(out.command.value_or(Velocity{}), time);
   if (const auto& robot = now.devices.robot; robot && now.connection.foresight > 0.0)
-    out.stops_at = robot->to_parent({drive::stopping_distance(now.motion().linear), 0.0});
+    out.stops_at = robot->to_parent({now.stops_in, 0.0});
   touch.use_pad(devices.pad);
   out.alarm_begins = touch.report(devices.audio, devices.motors);
   teacher.update(now, time);
@@ -122,6 +122,7 @@ Observation Guide::Parts::observe(const Devices& devices, double dt, double time
   if (ahead > 0.0 && seen.robot) seen.robot = foresight.place(*seen.robot, ahead, time);
   Observation now = senses.observe(seen, dt, time);
   if (ahead > 0.0) foresight.look_ahead(now, devices.robot, ahead, time);
+  now.stops_in = drive::stopping_distance(now.motion().linear);
   now.pressed = buttons.update(devices.hands);
   now.pressed.insert(now.pressed.end(), devices.asked.begin(), devices.asked.end());
   now.stick = drive.shaped(devices.hands.stick(config.drive.stick == "right"));

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cues/near_words.hpp"
+#include "cues/robot_motion.hpp"
 #include "cues/state_cues.hpp"
 #include "cues/way_words.hpp"
 
@@ -34,7 +35,11 @@ Utterance where_am_i(const Observation& now, Rounding rounding) {
 std::optional<Utterance> about(Question question, const Tick& tick, Rounding rounding) {
   const Observation& now = tick.now;
   const bool to_goal = tick.follows && now.guidance->state == Guidance::State::following;
-  if (question == Question::around) return around(now.nearby);
+  if (question == Question::around) {
+    const bool far = now.connection.foresight > 0.0 && !stands(now);
+    const auto stops = far ? stops_before(now.nearby, now.stops_in) : std::nullopt;
+    return stops ? stops : around(now.nearby);
+  }
   if (question == Question::help)
     return Utterance{now.devices.keyboard ? CueKind::help_keys : CueKind::help_pad};
   if (question == Question::where && (now.place || (to_goal && now.goal_angle)))

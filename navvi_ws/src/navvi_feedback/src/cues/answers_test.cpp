@@ -96,6 +96,25 @@ TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   EXPECT_EQ(pass(0.1), Texts{"shelf 1 meter left, forklift 2 meters behind"});
 }
 
+TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
+  now_.nearby = {{ThingClass::box, 1, 0.4, {0.3, 0.8}, false},
+                 {ThingClass::shelf, 2, 1.2, {1.6, 0.1}, false}};
+  now_.measured = Velocity{0.9, 0.0};
+  now_.stops_in = 0.2;
+  const auto ask_around = [&] {
+    asked_.question = Question::around;
+    return pass(1.0).at(0);
+  };
+  EXPECT_EQ(ask_around().substr(0, 3), "box");
+  now_.connection.foresight = 0.5;
+  EXPECT_EQ(ask_around(), "you stop 1 meter before shelf");
+  now_.stops_in = -0.2;
+  EXPECT_EQ(ask_around().substr(0, 3), "box") << "nothing is behind";
+  now_.measured = Velocity{};
+  now_.stops_in = 0.0;
+  EXPECT_EQ(ask_around().substr(0, 3), "box") << "it stands";
+}
+
 TEST_F(AnswersTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {
   now_.guidance.reset();
   asked_.question = Question::way;

@@ -1,6 +1,7 @@
 #include "cues/near_words.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cues/structure.hpp"
 
@@ -63,6 +64,16 @@ Utterance around(const std::vector<NearThing>& nearby) {
   Utterance first = told.front();
   first.also.assign(told.begin() + 1, told.end());
   return first;
+}
+
+std::optional<Utterance> stops_before(const std::vector<NearThing>& nearby, double stops_in) {
+  for (const NearThing& thing : nearby) {  // nearest first
+    const double left = thing.gap - std::abs(stops_in);
+    if (thing.nearest.x() * stops_in <= 0.0 || side_of_lane(thing.nearest) != Side::ahead) continue;
+    if (left >= kAround) return std::nullopt;
+    return Utterance{CueKind::stops_before, {{}, std::max(0.1, left), thing.thing_class}};
+  }
+  return std::nullopt;
 }
 
 Utterance near_words(CueKind kind, ThingClass thing, Side side, bool urgent) {

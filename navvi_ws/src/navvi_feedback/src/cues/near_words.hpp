@@ -20,6 +20,10 @@ namespace navvi_feedback::cues {
 /// with its gap and where it is, for a person who asks.
 [[nodiscard]] Utterance around(const std::vector<NearThing>& nearby);
 
+/// Before what, and how far from it, the robot stops that is let go now; nullopt: nothing is so near.
+[[nodiscard]] std::optional<Utterance> stops_before(const std::vector<NearThing>& nearby,
+                                                    double stops_in);
+
 /// Words about a thing on a side. \param urgent  the robot drives at it
 [[nodiscard]] Utterance near_words(CueKind kind, ThingClass thing, Side side, bool urgent);
 /// The kind that tells of a thing that is all but touched.

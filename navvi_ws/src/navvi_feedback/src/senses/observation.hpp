@@ -49,6 +49,7 @@ struct Observation {
 
   // The robot
   Links links;
+  double stops_in = 0.0;                  ///< m, ahead or back, if the stick is let go now
   LinkState connection;                   ///< as the robot's side measures it
   bool cut_off = false;                   ///< all that comes by it is silent
   bool simulated = false;                 ///< there is a simulator, whose world is known
