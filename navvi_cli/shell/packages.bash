@@ -13,7 +13,7 @@ comfort_packages=(
   python3-speechd speech-dispatcher speech-dispatcher-espeak-ng
 )
 session_packages=(
-  build-essential ccache cmake ninja-build catkin ros-core-dev librviz-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev
+  build-essential ccache cmake ninja-build catkin ros-core-dev librviz-dev libactionlib-dev libmove-base-msgs-dev libtf2-msgs-dev libtf2-ros-dev liblaser-geometry-dev libompl-dev
   liboctomap-dev libbullet-dev libsdl2-dev libespeak-ng-dev librecast-dev libyaml-cpp-dev libopenal-dev libx11-dev libtinyxml2-dev libassimp-dev libeigen3-dev
   zlib1g-dev pkg-config libgtest-dev librostest-dev
   "${run_packages[@]}" "${comfort_packages[@]}"

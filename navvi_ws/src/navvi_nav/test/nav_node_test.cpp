@@ -1,7 +1,9 @@
 // nav_node from outside: a map, a robot and obstacles are played to it.
 
+#include <actionlib/client/simple_action_client.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
+#include <move_base_msgs/MoveBaseAction.h>
 #include <nav_msgs/GetPlan.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
@@ -424,6 +426,47 @@ TEST_F(NavNodeTest, N6_more_obstacles_than_a_message_may_hold_are_announced) {
   played_.obstacles.clear();
   EXPECT_TRUE(until(
       [this] { return guidance_.detail.find("the obstacles are rejected") == std::string::npos; }));
+}
+
+TEST_F(NavNodeTest, takes_its_goal_as_an_action_as_move_base_does) {
+  using State = actionlib::SimpleClientGoalState;
+  actionlib::SimpleActionClient<move_base_msgs::MoveBaseAction> client(node_, "move_base", false);
+  played_.header.frame_id = "map";
+  send_map();
+  ASSERT_TRUE(until([&] {
+    return client.isServerConnected() && guidance_.state == navvi_msgs::Guidance::NO_GOAL;
+  }));
+  double seen = 0.0;
+  const auto ask = [&](double x) {
+    move_base_msgs::MoveBaseGoal goal;
+    goal.target_pose.header.frame_id = "map";
+    goal.target_pose.pose.position.x = x;
+    goal.target_pose.pose.position.y = 5.0;
+    goal.target_pose.pose.orientation.w = 1.0;
+    client.sendGoal(goal, {}, {}, [&](const move_base_msgs::MoveBaseFeedbackConstPtr& feedback) {
+      seen = feedback->base_position.pose.position.x;
+    });
+  };
+  const auto ends_as = [&](State::StateEnum state) {
+    return until([&] { return client.getState() == state; });
+  };
+  ask(14.0);
+  EXPECT_TRUE(until([&] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  EXPECT_TRUE(until([&] { return seen == 2.0; })) << "where the robot is";
+  client.cancelGoal();
+  EXPECT_TRUE(ends_as(State::PREEMPTED));
+  EXPECT_TRUE(until([&] { return guidance_.state == navvi_msgs::Guidance::NO_GOAL; }));
+  ask(7.5);
+  EXPECT_TRUE(ends_as(State::ABORTED)) << "in a shelf";
+  EXPECT_FALSE(client.getState().getText().empty());
+  ask(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(ends_as(State::ABORTED));
+  ask(14.0);
+  EXPECT_TRUE(until([&] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
+  send_goal(13.0, 5.0);
+  EXPECT_TRUE(ends_as(State::PREEMPTED)) << "another goal took its place";
+  ask(2.1);
+  EXPECT_TRUE(ends_as(State::SUCCEEDED)) << "the robot is there";
 }
 
 TEST_F(NavNodeTest, lives_on_after_garbage) {

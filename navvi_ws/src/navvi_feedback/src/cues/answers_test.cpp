@@ -99,7 +99,7 @@ TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
 TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
   now_.nearby = {{ThingClass::box, 1, 0.4, {0.3, 0.8}, false},
                  {ThingClass::shelf, 2, 1.2, {1.6, 0.1}, false}};
-  now_.measured = Velocity{0.9, 0.0};
+  now_.measured = Velocity{0.2, 0.0};
   now_.stops_in = 0.2;
   const auto ask_around = [&] {
     asked_.question = Question::around;

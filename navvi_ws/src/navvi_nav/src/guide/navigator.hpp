@@ -74,6 +74,7 @@ class Navigator {
   /// yet is led toward only on a SecondAsk.
   /// \param stamp  s, of its message; 0: it is nobody's second ask
   void set_goal(const Eigen::Vector2d& goal, double stamp = 0.0);
+  void cancel_goal() { drop_goal(Guidance::State::no_goal); }
   /// A goal message that cannot even be read is dropped whole: a goal that stands stays. Only
   /// without one the refusal is reported. \returns true if a goal stands
   bool drop_bad_goal(Guidance::Refusal refusal, const std::string& detail);

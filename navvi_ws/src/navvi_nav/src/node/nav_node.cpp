@@ -13,6 +13,7 @@
 
 #include "guide/navigator.hpp"
 #include "guide/publish_throttle.hpp"
+#include "node/goal_action.hpp"
 #include "node/msg_conversion.hpp"
 #include "plan/worker.hpp"
 
@@ -99,6 +100,13 @@ class NavNode {
               navigator_.set_foresight(link.foresight);
             }),
         node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
+    goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
+    action_.emplace(
+        node, [this](const geometry_msgs::PoseStamped& goal) { goals_.publish(goal); },
+        [this] {
+          navigator_.cancel_goal();
+          publish_all();
+        });
     make_plan_ = node.advertiseService("move_base/make_plan", &NavNode::on_make_plan, this);
     timer_ = node.createWallTimer(ros::WallDuration(kBeat),
                                   [this](const ros::WallTimerEvent&) { beat(); });
@@ -132,6 +140,7 @@ class NavNode {
 
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& msg) {
     const std::optional<Eigen::Vector2d> goal = navvi_types::from_msg(*msg);
+    action_->take(*msg);
     if (!goal) {
       drop_goal(Guidance::Refusal::not_finite, "the goal is not a finite point");
     } else if (const std::optional<Eigen::Vector2d> there = in_map_frame(*goal, msg->header)) {
@@ -259,6 +268,21 @@ class NavNode {
     navvi_msgs::Guidance msg = navvi_types::to_msg(guidance);
     msg.header.frame_id = config_.map_frame;
     guidance_.publish(msg);
+    action_->report(msg, pose_msg(now));
+  }
+
+  [[nodiscard]] geometry_msgs::PoseStamped pose_msg(double now) const {
+    geometry_msgs::PoseStamped pose;
+    pose.header.frame_id = config_.map_frame;
+    pose.header.stamp = ros::Time::now();
+    pose.pose.orientation.w = 1.0;
+    if (const std::optional<Pose2> robot = navigator_.pose(now)) {
+      pose.pose.position.x = robot->position.x();
+      pose.pose.position.y = robot->position.y();
+      pose.pose.orientation.w = std::cos(robot->yaw / 2.0);
+      pose.pose.orientation.z = std::sin(robot->yaw / 2.0);
+    }
+    return pose;
   }
 
   void publish_path() {
@@ -283,6 +307,8 @@ class NavNode {
   std::optional<tf2_ros::StaticTransformBroadcaster> frames_;
   ros::Publisher path_;
   ros::Publisher guidance_;
+  ros::Publisher goals_;
+  std::optional<GoalAction> action_;
   ros::Publisher mesh_;
   std::vector<ros::Subscriber> subscribers_;
   ros::ServiceServer make_plan_;
