@@ -61,6 +61,8 @@ def test_no_set_of_worlds_stays_tied_to_a_place_in_the_order(size):
     ("[plain, full]", "[plain, none]", "allowed is one of: full, plain"),
     ("[plain, full]", "[plain, plain]", "allowed are two conditions"),
     ("measure: time", "measure: sus", "does not ask sus"),
+    ("measure: time", "equivalent_within: 0, measure: time", "\"outcomes/primary/equivalent_within\" is 0; allowed is a number from 1e-06"),
+    ("outcomes: {", "outcomes: {exposure: way, ", "\"outcomes/exposure\" is \"way\"; allowed is one of: trial, time, path"),
     ("[tlx]", "[txl]", "allowed are files in"),
     ("column: result, is: [aborted, invalid]", "column: result", "needs one of the keys"),
     ("title: A small study", "", "the key \"title\" is missing"),
@@ -99,6 +101,7 @@ def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
     tlx = questionnaire.find("tlx", EXAMPLE.parent)
     assert tlx.scored({item.name: str(10 * at) for at, item in enumerate(tlx.items)}, {}) == 25.0
     assert tlx.scored({item.name: "declined" for item in tlx.items}, {}) is None
+    assert sus.scored({item.name: "3" if at else "declined" for at, item in enumerate(sus.items)}, {}) is None
     probe = questionnaire.find("probe", EXAMPLE.parent)
     assert probe.scored({"goal": "80", "start": "0", "left": "wall"}, {"goal": "-20", "start": "40", "left": "n/a"}) == 30.0
     assert probe.scored({"goal": "declined"}, {"goal": "n/a"}) is None

@@ -7,11 +7,7 @@ def schedule(plan):
     """The whole study, before anything starts."""
     lines = [f"{plan.title}: study {plan.study}, {len(plan.participants)} participants in {len(plan.groups)} groups, {_count(plan.sessions, 'session')} each.",
              f"Primary outcome: {question(plan.primary)}. Everything is kept in {plan.folder}.", ""]
-    for condition in plan.conditions:
-        switched = [f"{'no ' if not getattr(condition, name) else ''}{name}" for name in ("touch", "speech", "sounds", "picture")]
-        lines.append(f"Condition {condition.name}: {', '.join(switched)}, profile {condition.profile}"
-                     + "".join(f", {name} {value}" for name, value in condition.parameters) + ".")
-    lines += broken_off(plan)
+    lines += [*conditions(plan), *broken_off(plan)]
     lines += [f"Worlds: {len(plan.sets)} sets of {len(plan.sets[0])}, {len(plan.reserve)} in reserve; {plan.limit:g} s at most in each.", ""]
     for group in plan.groups:
         lines.append(f"Group {group.name}:")
@@ -24,6 +20,15 @@ def schedule(plan):
     lines += ["", *balance(plan)]
     hours = sum(sum(minutes_of(plan, name)) for name in plan.participants) / 60
     lines.append(f"All together {hours:.1f} hours.")
+    return lines
+
+
+def conditions(plan):
+    lines = []
+    for condition in plan.conditions:
+        switched = [f"{'no ' if not getattr(condition, name) else ''}{name}" for name in ("touch", "speech", "sounds", "picture")]
+        lines.append(f"Condition {condition.name}: {', '.join(switched)}, profile {condition.profile}"
+                     + "".join(f", {name} {value}" for name, value in condition.parameters) + ".")
     return lines
 
 

@@ -110,6 +110,7 @@ class Question:
     first: str
     second: str
     trials: str = ""  # "reached": of a measure that is defined for these alone, and the plan says so
+    within: float = 0.0  # above 0: the two are equivalent if they differ by less; in the unit of the measure
 
 
 @dataclass(frozen=True)
@@ -136,6 +137,7 @@ class Plan:
     at_end: tuple
     primary: Question
     secondary: tuple
+    exposure: str  # what counts are divided by: a key of measures.EXPOSURES
     exclusions: tuple
     stop_after: int  # participants who have completed; 0: all
     minutes: dict = field(default_factory=dict, compare=False)
@@ -179,9 +181,12 @@ class Plan:
         values = _without_places(json.loads(json.dumps(asdict(self))))
         if not self.probes:  # so that plans without keep their hash
             del values["probes"]
+        if self.exposure == "trial":
+            del values["exposure"]
         for question in (values["primary"], *values["secondary"]):
-            if not question["trials"]:
-                del question["trials"]
+            for key in ("trials", "within"):
+                if not question[key]:
+                    del question[key]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
         return dict(values, world_files={name: hashlib.sha256(checked.read(file, LARGEST_WORLD)).hexdigest() for name, file in files.items()})
 

@@ -35,6 +35,7 @@ def load(path):
         after_condition=_questionnaires(folder, questions, "after_condition"), at_end=_questionnaires(folder, questions, "at_end"),
         primary=_question(outcomes.section("primary", required=True), conditions),
         secondary=tuple(_question(part, conditions) for part in outcomes.items("secondary", [])),
+        exposure=outcomes.take("exposure", one_of(*measures.EXPOSURES), "trial"),
         exclusions=tuple(_rule(part) for part in root.items("exclusions", [])),
         stop_after=stop.take("completed", whole(1, 10000), 0),
         minutes=_minutes(root.section("minutes")))
@@ -137,8 +138,9 @@ def _question(part, conditions):
         whole = ", ".join(name for name, one in measures.MEASURES.items() if one.of != measures.REACHED)
         raise part.error("measure", f"is {measure}, which is defined for {defined} alone; allowed are \"trials: reached\" beside it, by which "
                          f"the plan leaves the others out, and the measures {whole}")
+    within = part.take("equivalent_within", number(1e-6, 1e6), 0.0)
     part.done()
-    return Question(measure, *pair, trials)
+    return Question(measure, *pair, trials, within)
 
 
 def _questionnaires(folder, part, key):

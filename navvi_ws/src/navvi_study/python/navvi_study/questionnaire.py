@@ -14,6 +14,7 @@ from .journal import rows_of
 SHIPPED = [Path(__file__).resolve().parents[2] / "studies" / "questionnaires"]
 LONGEST = 80  # bytes of a sentence that the voice speaks
 DECLINED = "declined"  # rather not say
+PRORATED = 5  # items, from which on a mean may leave one out
 
 
 @dataclass(frozen=True)
@@ -60,14 +61,18 @@ class Questionnaire:
         """Under which name its score is compared."""
         return self.same_as or self.name
 
+    def prorated(self, answers):
+        """Whether the score is the mean of all items but one, which was declined; of at least PRORATED items."""
+        return self.score == "mean" and len(self.items) >= PRORATED and list(answers.values()).count(DECLINED) == 1
+
     def scored(self, answers, errors):
-        """\\param answers  by item's name, as text. None where one is missing or declined.
+        """\\param answers  by item's name, as text. None where one is missing or declined; a mean leaves one declined item out (prorated).
         \\param errors  of pointing, by item's name, as text"""
         if self.score == "pointing":
             known = [abs(float(error)) for error in errors.values() if error not in ("", "n/a")]
             return sum(known) / len(known) if known else None
         try:
-            numbers = [float(answers[item.name]) for item in self.items]
+            numbers = [float(answers[item.name]) for item in self.items if not (self.prorated(answers) and answers[item.name] == DECLINED)]
         except (KeyError, ValueError):
             return None
         if self.score == "mean":

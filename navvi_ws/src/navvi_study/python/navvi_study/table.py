@@ -124,7 +124,7 @@ def _truth(study, person, row):
 
 
 def scores(study, progress):
-    """Of each questionnaire that was answered as a whole: rows with participant, condition, order, questionnaire and score."""
+    """Of each questionnaire that was answered: rows with participant, condition, order, questionnaire, score and whether that is prorated."""
     given = {}
     for row in answers(study, progress):
         given.setdefault((row["participant"], row["step"]), []).append(row)
@@ -134,10 +134,10 @@ def scores(study, progress):
         first = items[0]
         if first["questionnaire"] not in asked or progress.people[participant].excluded:
             continue
-        score = asked[first["questionnaire"]].scored({row["item"]: row["answer"] for row in items},
-                                                          {row["item"]: row.get("error_deg", "n/a") for row in items})
+        one, answered = asked[first["questionnaire"]], {row["item"]: row["answer"] for row in items}
+        score = one.scored(answered, {row["item"]: row.get("error_deg", "n/a") for row in items})
         rows.append({"participant": participant, "group": first["group"], "condition": first["condition"], "order": first["order"],
-                     "questionnaire": asked[first["questionnaire"]].measured, "score": score})
+                     "questionnaire": one.measured, "score": score, "prorated": score is not None and one.prorated(answered)})
     return rows
 
 
