@@ -91,6 +91,26 @@ def test_the_example_can_be_checked_and_nobody_meets_a_world_twice():
     assert "balanced for order and first-order carry-over" in text
 
 
+def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
+    from navvi_study import preregistration
+    kept = study.Study(small(tmp_path, ("[plain, full]}", "[plain, full], equivalent_within: 5}, exposure: path, secondary: [{measure: collisions, conditions: [plain, full]}]")))
+    kept.freeze("0.1.0", None)
+    text = preregistration.write(kept).read_text()
+    assert text.startswith(f"# A small study: pre-registration\n\nStudy small; the plan was frozen on ") and kept.plan.hash() in text
+    headings = [line for line in text.splitlines() if line.startswith("## ")]
+    assert headings == [f"## {name}" for name in ("Hypotheses", "Design", "Participants", "Measures", "Analysis", "Exclusions")]
+    for line in ("Primary: Time to the goal: full and plain are equivalent within 5.", "Secondary: Collisions: full and plain differ.",
+                 "Group all: 2 orders, balanced for order and first-order carry-over.", "Group all: 4, in the conditions full, plain.",
+                 "Collisions, per 100 m, of trials that count.", "Condition plain: no touch, speech, sounds, no picture, profile default.",
+                 "The same holds where result is aborted or invalid: the trial broke off.", preregistration.MODELS["count"], preregistration.EQUIVALENCE):
+        assert f"- {line}\n" in text
+    assert preregistration.MODELS["time"] not in text, "no difference of times is tested"
+    changed = study.Study(small(tmp_path, ("limit: 60", "limit: 90")))
+    changed.freeze("0.1.0", "too short")
+    text = preregistration.write(changed).read_text()
+    assert ", too short: limit: 60.0 is now 90.0" in text and "full and plain differ." in text and "after 90 s" in text
+
+
 def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
     for path in (PACKAGE / "studies/questionnaires").glob("*.yaml"):
         asked = questionnaire.load(path)

@@ -11,12 +11,10 @@ from statsmodels.stats.multitest import multipletests
 from statsmodels.tools.sm_exceptions import PerfectSeparationError
 
 from . import measures, table
-from .measures import MEASURES
+from .measures import LEAST, MEASURES, RESAMPLES
 
-RESAMPLES = 10000
 SEED = 20260101  # of the bootstrap: the same data give the same interval
 MOST_ERROR = 5.0  # of a logarithm of a ratio, beyond which there is no estimate
-LEAST = 5  # participants, below which an interval or a test is not given
 
 
 @dataclass

@@ -11,7 +11,8 @@ ANSWERED = "questionnaires answered in every item"
 PRORATED = "questionnaires with one item declined at most"
 PROBED = "probes with a true direction"
 
-
+LEAST = 5  # participants, below which an interval or a test is not given
+RESAMPLES = 10000  # of a bootstrap
 # What counts are divided by, as the plan's outcomes say: the unit, a column of trials.csv, and how much of it is one.
 EXPOSURES = {"trial": ("a trial", None, 1.0), "time": ("a minute", "elapsed_s", 60.0), "path": ("per 100 m", "path_length_m", 100.0)}
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import jinja2
 
 from . import figures, overview, table, ways
-from .analysis import RESAMPLES, Analysis
-from .measures import MEASURES, REACHED, number
+from .analysis import Analysis
+from .measures import MEASURES, REACHED, RESAMPLES, number
 from .session import why_nothing
 from .questionnaire import DECLINED
 from .study import write_safely
