@@ -5,8 +5,8 @@ import time
 
 import pytest
 
-from small_study import EXAMPLE, PACKAGE, small
-from navvi_study import design, overview, plan_file, probe, progress, questionnaire, runner, schedule, study  # noqa: E402
+from small_study import Driver, EXAMPLE, PACKAGE, rest, small
+from navvi_study import design, overview, plan_file, probe, progress, questionnaire, runner, schedule, session, study  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
 
 # The design.
@@ -36,6 +36,43 @@ def test_no_set_of_worlds_stays_tied_to_a_place_in_the_order(size):
     met = collections.Counter((place, design.set_of(participant, rows[participant % len(rows)][place], size, len(rows)))
                               for participant in range(len(rows) * size) for place in range(size))
     assert len(met) == size * size and len(set(met.values())) == 1
+
+
+@pytest.mark.parametrize("size", range(1, 9))
+def test_a_drawn_order_is_as_balanced_as_a_listed_one_and_another_with_each_seed(size):
+    places = {seed: [design.allotted(seed, "all", at, size) for at in range(3 * size)] for seed in ("a", "b", "c", "d", "e")}
+    for drawn in places.values():
+        assert [sorted(drawn[at:at + size]) for at in range(0, 3 * size, size)] == [list(range(at, at + size)) for at in range(0, 3 * size, size)]
+    assert size < 3 or len(set(map(tuple, places.values()))) > 1
+    assert places["a"] == [design.allotted("a", "all", at, size) for at in range(3 * size)]
+
+
+DRAWN = ("limit: 60", "limit: 60\norder: drawn")
+
+
+def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it_is_due(tmp_path):
+    import hashlib
+    from navvi_study import preregistration, report
+    plan = small(tmp_path, DRAWN)
+    shown = "\n".join(overview.schedule(plan))
+    assert "sub-02" not in shown and "it is one of: full, plain; plain, full." in shown
+    kept = study.Study(plan)
+    kept.freeze("test", None)
+    seed = (tmp_path / "small/allocation.seed").read_text().strip()
+    assert len(seed) == 32 and kept.journal.rows()[0]["allocation"] == hashlib.sha256(seed.encode()).hexdigest()
+    files = [path for path in (tmp_path / "small").iterdir() if path.name != "allocation.seed"] + [preregistration.write(kept)]
+    assert not any(seed in path.read_text() for path in files), "the frozen plan and the journal do not tell it"
+    firsts = [next(step.condition for step in person.steps if step.kind == "trial") for person in study.Study(plan).progress().people.values()]
+    assert [sorted(firsts[:2]), sorted(firsts[2:])] == [["full", "plain"]] * 2
+    waiting = "\n".join(overview.status(kept, kept.progress()))
+    assert "next is s1-c1-trial-1." in waiting and "in full" not in waiting and "in plain" not in waiting
+    assert "printed here once" in report.opening(kept.progress())
+    for name in plan.participants:
+        rest(session.Session(kept, Driver(kept), say=lambda line: None, wait=False), name)
+    assert f"drawn by the seed {seed}" in report.opening(kept.progress())
+    (tmp_path / "small/allocation.seed").write_text("another")
+    with pytest.raises(StudyError, match="allocation.seed is missing or changed since the plan was frozen"):
+        study.Study(plan)
 
 
 # The plan.

@@ -141,6 +141,7 @@ class Plan:
     exclusions: tuple
     stop_after: int  # participants who have completed; 0: all
     minutes: dict = field(default_factory=dict, compare=False)
+    seed: str = field(default="", repr=False, compare=False)  # of an order that is drawn; the study keeps it, apart from the plan
 
     def condition(self, name):
         return next(condition for condition in self.conditions if condition.name == name)
@@ -181,6 +182,7 @@ class Plan:
         values = _without_places(json.loads(json.dumps(asdict(self))))
         if not self.probes:  # so that plans without keep their hash
             del values["probes"]
+        del values["seed"]
         if self.exposure == "trial":
             del values["exposure"]
         for question in (values["primary"], *values["secondary"]):

@@ -26,7 +26,7 @@ def load(path):
         operator=root.take("operator", one_of("auto", "pad", "keyboard", "simulated"), "auto"),
         learning=root.take("learning", one_of("reset", "frozen", "kept"), "reset"),
         limit=root.take("limit", number(1, 86400)), sessions=root.take("sessions", whole(1, 20), 1),
-        order=root.take("order", one_of("williams", "listed"), "williams"),
+        order=root.take("order", one_of("williams", "drawn", "listed"), "williams"),
         groups=tuple(_group(name, part, conditions) for name, part in root.sections("groups")),
         conditions=conditions, sets=sets, reserve=reserve,
         practice=_practice(root.section("practice"), folder), probes=_probes(root.section("probes"), folder), pause=_pause(root.section("break")),

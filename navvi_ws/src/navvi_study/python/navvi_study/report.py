@@ -57,7 +57,11 @@ def opening(progress):
     if not frozen:
         return "The plan is not frozen: nothing here is confirmatory."
     versions = ", ".join(dict.fromkeys(row["version"] for row in progress.freezes))
-    return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}."
+    drawn = ""
+    if progress.plan.order == "drawn":
+        drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 stands in the first row of the journal." if progress.over else
+                 " Orders are drawn by a seed that is printed here once nobody is left to begin.")
+    return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}"
 
 
 FLOW = {
