@@ -98,6 +98,7 @@ def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it
     ("[plain, full]", "[plain, none]", "allowed is one of: full, plain"),
     ("[plain, full]", "[plain, plain]", "allowed are two conditions"),
     ("measure: time", "measure: sus", "does not ask sus"),
+    ("{after_condition: [tlx]}", "{at_begin: [about_you]}", "needs \"yes\" to the item describe of the consent; the consent's items with a yes are: none"),
     ("measure: time", "equivalent_within: 0, measure: time", "\"outcomes/primary/equivalent_within\" is 0; allowed is a number from 1e-06"),
     ("outcomes: {", "outcomes: {exposure: way, ", "\"outcomes/exposure\" is \"way\"; allowed is one of: trial, time, path"),
     ("[tlx]", "[txl]", "allowed are files in"),

@@ -133,7 +133,8 @@ class Plan:
     calibrate: bool
     lsl: bool
     consent: object  # a Questionnaire or None
-    after_condition: tuple  # of Questionnaires
+    at_begin: tuple  # of Questionnaires
+    after_condition: tuple
     at_end: tuple
     primary: Question
     secondary: tuple
@@ -171,7 +172,7 @@ class Plan:
     @property
     def asked(self):
         """Questionnaires whose answers are told in the report."""
-        return (*([self.probes.asks] if self.probes else []), *self.after_condition, *self.at_end)
+        return (*self.at_begin, *([self.probes.asks] if self.probes else []), *self.after_condition, *self.at_end)
 
     def world_file(self, world):
         """The file of a world that is no name; None for a name."""
@@ -185,6 +186,8 @@ class Plan:
         del values["seed"]
         if self.exposure == "trial":
             del values["exposure"]
+        if not self.at_begin:
+            del values["at_begin"]
         for question in (values["primary"], *values["secondary"]):
             for key in ("trials", "within"):
                 if not question[key]:
@@ -198,7 +201,7 @@ class Plan:
 
 def _without_places(value):
     if isinstance(value, dict):
-        return {key: _without_places(below) for key, below in value.items() if key != "file"}
+        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) != ("scope", "")}
     return [_without_places(below) for below in value] if isinstance(value, list) else value
 
 

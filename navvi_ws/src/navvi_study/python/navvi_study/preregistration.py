@@ -20,7 +20,7 @@ def write(study):
     """The page of the plan that was frozen last. Returns the file."""
     path = study.folder / "preregistration.md"
     # As attributes, like a Plan's; keys that a freeze leaves out have their default.
-    plan = json.loads(json.dumps({"exposure": "trial", "probes": None, **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
+    plan = json.loads(json.dumps({"exposure": "trial", "probes": None, "at_begin": [], **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
     write_safely(path, "\n".join(page(plan, study.progress().freezes)) + "\n")
     return path
 
@@ -47,7 +47,7 @@ def page(plan, freezes):
         "Measures": [
             *dict.fromkeys(f"{MEASURES[one.measure].label}, {per_trial if MEASURES[one.measure].kind == 'count' else MEASURES[one.measure].unit}, "
                            f"of {MEASURES[one.measure].of}." for one in outcomes),
-            *[f"Questionnaire: {one.title}." for one in (*plan.after_condition, *plan.at_end)],
+            *[f"Questionnaire: {one.title}." for one in (*plan.at_begin, *plan.after_condition, *plan.at_end)],
             *(["Probes: a trial in each condition that stops unannounced, and questions about it."] if plan.probes else [])],
         "Analysis": [
             *[words for kind, words in MODELS.items() if kind in kinds],

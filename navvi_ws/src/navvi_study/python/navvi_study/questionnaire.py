@@ -55,6 +55,7 @@ class Questionnaire:
     items: tuple
     score: str  # none, mean, sus or pointing
     same_as: str = ""  # the questionnaire that it is in another language
+    scope: str = ""  # the item of the consent without whose "yes" it is not asked
 
     @property
     def measured(self):
@@ -95,7 +96,7 @@ def load(path):
     root = checked.load(path)
     items = tuple(_item(part) for part in root.items("items"))
     one = Questionnaire(Path(path).stem, str(path), root.take("title", text), root.take("intro", text, ""), items,
-                        root.take("score", one_of("none", "mean", "sus", "pointing"), "none"), root.take("same_as", code, ""))
+                        root.take("score", one_of("none", "mean", "sus", "pointing"), "none"), root.take("same_as", code, ""), root.take("scope", code, ""))
     root.done()
     names = [item.name for item in items]
     if len(set(names)) < len(names):

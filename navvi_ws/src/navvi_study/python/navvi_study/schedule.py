@@ -51,6 +51,8 @@ def steps_of(plan, participant):
             steps.append(Step(f"s{session}-{name}", kind, session, minutes=more.pop("minutes", _minutes(plan, kind)), **more))
         if plan.consent:
             add("consent", "consent", asks=plan.consent)
+        for asks in plan.at_begin if session == 1 else ():
+            add(asks.name, "questionnaire", asks=asks)
         if plan.calibrate and session == 1:
             add("calibrate", "calibrate")
         if before == "session" or (before == "study" and session == 1):

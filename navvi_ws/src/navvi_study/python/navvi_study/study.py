@@ -156,6 +156,11 @@ class Study:
     def answers(self, participant):
         return self.lines(participant, "answers")[0]
 
+    def agreed(self, participant, item):
+        """Whether the last answer to the item of the consent is yes."""
+        given = [row["answer"] for row in self.answers(participant) if self.plan.consent and (row["questionnaire"], row["item"]) == (self.plan.consent.name, item)]
+        return given[-1:] == ["yes"]
+
     def note(self, participant, attempt, row):
         append_line(self.home(participant) / "notes.jsonl", {"step": attempt.step, "attempt": attempt.number, **row})
 
