@@ -7,7 +7,7 @@ from pathlib import Path
 
 import jinja2
 
-from . import figures, overview, table, ways
+from . import figures, overview, preregistration, table, ways
 from .analysis import Analysis
 from .measures import MEASURES, REACHED, RESAMPLES, number
 from .session import why_nothing
@@ -40,7 +40,7 @@ def page(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
         plan=plan, rehearsed=rehearsed, opening=opening(progress), who=who(progress, primary), flow=flow(progress, primary), people=people(progress),
         trials=trials(progress), besides=besides(progress), excluded=excluded(progress), resamples=RESAMPLES,
         primary=answer(analysis, primary, False), secondary=[answer(analysis, one, True) for one in secondary], parts=parts,
-        outcomes=of_outcomes, conditions=overview.conditions(plan), alike=[alike(analysis, name) for name in analysis.asked() if name not in asked],
+        outcomes=of_outcomes, conditions=overview.conditions(plan), models=preregistration.MODELS.values(), alike=[alike(analysis, name) for name in analysis.asked() if name not in asked],
         questionnaires=answered(study, progress), maps=maps(found, plan, picture, command), cues=cues(found, plan),
         exploratory=[contrast_row(analysis, one) for one in analysis.exploratory()], quality=quality(study, progress),
         changes=[f"{row['utc']}, {row['reason']}: {change}" for row in progress.freezes for change in row["changes"]], command=command)
@@ -117,7 +117,7 @@ def driven(progress, kind):
 
 def besides(progress):
     counts = [(len(driven(progress, kind)), words) for kind, words in (("practice", "of practice"), ("probe", "with a probe"))]
-    return " and ".join(f"{count} {words}" for count, words in counts if count)
+    return ", ".join(f"{count} {words}" for count, words in counts if count)
 
 
 def excluded(progress):
@@ -257,10 +257,11 @@ def answered(study, progress):
             given[row["questionnaire"], row["item"], row["condition"]].append(row)
     parts = []
     for asked in progress.plan.asked:
-        conditions = list(dict.fromkeys(condition for name, _, condition in given if name == asked.name))
+        names = [condition.name for condition in progress.plan.conditions] + ["n/a"]
+        conditions = sorted({condition for name, _, condition in given if name == asked.name}, key=names.index)
         if conditions:
             rows = [[item.ask, *[answers_in_words(item, given[asked.name, item.name, condition]) for condition in conditions]] for item in asked.items]
-            parts.append({"title": asked.title, "conditions": [name if name != "n/a" else "all" for name in conditions], "rows": rows})
+            parts.append({"title": asked.title, "conditions": [name if name != "n/a" else "Answer" for name in conditions], "rows": rows})
     return parts
 
 
