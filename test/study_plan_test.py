@@ -137,7 +137,7 @@ def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
     assert text.startswith(f"# A small study: pre-registration\n\nStudy small; the plan was frozen on ") and kept.plan.hash() in text
     headings = [line for line in text.splitlines() if line.startswith("## ")]
     assert headings == [f"## {name}" for name in ("Hypotheses", "Design", "Participants", "Measures", "Analysis", "Exclusions")]
-    for line in ("Primary: Time to the goal: full and plain are equivalent within 5.", "Secondary: Collisions: full and plain differ.",
+    for line in ("Primary: Time to the goal: full and plain are equivalent within 5 (s).", "Secondary: Collisions: full and plain differ.",
                  "Group all: 2 orders, balanced for order and first-order carry-over.", "Group all: 4, in the conditions full, plain.",
                  "Collisions, per 100 m, of trials that count.", "Condition plain: no touch, speech, sounds, no picture, profile default.",
                  "The same holds where result is aborted or invalid: the trial broke off.", preregistration.MODELS["count"], preregistration.EQUIVALENCE):

@@ -76,7 +76,8 @@ class Analysis:
 
     def alike(self, name):
         """Whether all trials have the same value: nothing to draw or to compare."""
-        return np.ptp(self.values(name)["value"]) == 0
+        values = self.values(name)
+        return np.ptp(values["value"] / values["exposure"]) == 0
 
     def asked(self):
         """Names of all measures that have values."""
@@ -267,7 +268,7 @@ def _equivalence(result, differences):
     """Two one-sided t tests of the participants' differences against the smallest effect of interest (Schuirmann, Journal of Pharmacokinetics
     and Biopharmaceutics 15, 1987); the interval of 90 % is that of the same two tests."""
     free, error = len(differences) - 1, differences.std(ddof=1) / np.sqrt(len(differences))
-    result.model, result.effect, result.estimate = f"two one-sided t tests within {result.within:g}", "mean difference, 90 %", float(differences.mean())
+    result.model, result.effect, result.estimate = f"two one-sided t tests within {result.within:g}", "mean difference", float(differences.mean())
     result.p = float(scipy.stats.t.sf((result.within - abs(result.estimate)) / error, free)) if error else float(abs(result.estimate) >= result.within)
     result.estimate_low, result.estimate_high = (float(result.estimate + sign * scipy.stats.t.ppf(0.95, free) * error) for sign in (-1, 1))
     return result

@@ -67,5 +67,5 @@ def page(plan, freezes):
 
 
 def hypothesis(one):
-    within = getattr(one, "within", 0)
-    return f"{MEASURES[one.measure].label}: {one.second} and {one.first} {f'are equivalent within {within:g}' if within else 'differ'}."
+    measure, within = MEASURES[one.measure], getattr(one, "within", 0)
+    return f"{measure.label}: {one.second} and {one.first} {f'are equivalent within {within:g} ({measure.unit})' if within else 'differ'}."

@@ -40,7 +40,7 @@ def page(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
         plan=plan, rehearsed=rehearsed, opening=opening(progress), who=who(progress, primary), flow=flow(progress, primary), people=people(progress),
         trials=trials(progress), besides=besides(progress), excluded=excluded(progress), resamples=RESAMPLES,
         primary=answer(analysis, primary, False), secondary=[answer(analysis, one, True) for one in secondary], parts=parts,
-        outcomes=of_outcomes, conditions=overview.conditions(plan), models=preregistration.MODELS.values(), alike=[alike(analysis, name) for name in analysis.asked() if name not in asked],
+        outcomes=of_outcomes, conditions=overview.conditions(plan), models=preregistration.MODELS.values(), alike=[alike(analysis, name) for name in analysis.asked() if name not in (*asked, *of_outcomes)],
         questionnaires=answered(study, progress), maps=maps(found, plan, picture, command), cues=cues(found, plan),
         exploratory=[contrast_row(analysis, one) for one in analysis.exploratory()], quality=quality(study, progress),
         changes=[f"{row['utc']}, {row['reason']}: {change}" for row in progress.freezes for change in row["changes"]], command=command)
@@ -145,7 +145,10 @@ def probability(p):
 
 def answer(analysis, one, holm):
     """A confirmatory outcome in words."""
-    return {"measure": one.measure, "label": MEASURES[one.measure].label, "sentence": sentence(analysis, one), "test": tested(one, holm), "note": one.note}
+    told = {"measure": one.measure, "label": MEASURES[one.measure].label}
+    if one.participants and analysis.alike(one.measure):
+        return {**told, "sentence": alike(analysis, one.measure), "test": "", "note": ""}
+    return {**told, "sentence": sentence(analysis, one), "test": tested(one, holm), "note": one.note}
 
 
 def sentence(analysis, one):
@@ -158,7 +161,9 @@ def sentence(analysis, one):
 
     def size(value):
         return f"{scale * abs(value):.{digits}f}"
-    digits = max(0, 1 - math.floor(math.log10(scale * abs(one.difference))))  # two that matter, and its interval in the same
+    # Two digits that matter, of the difference or of a tenth of its interval's half width; the interval has the same decimals.
+    widest = abs(one.difference) if one.low is None else max(abs(one.difference), (one.high - one.low) / 20)
+    digits = max(0, 1 - math.floor(math.log10(scale * widest)))
     sign = 1 if one.difference > 0 else -1
     more = measure.more[sign > 0]
     told = measure.sentence.format(amount=size(one.difference), more=more, unit=analysis.unit(one.measure))
@@ -187,7 +192,9 @@ def tested(one, holm):
 
 
 def effect(one):
-    return f"{one.effect} {with_interval(one.estimate, one.estimate_low, one.estimate_high)}" if one.estimate is not None else "n/a"
+    if one.estimate is None:
+        return "n/a"
+    return f"{one.effect} {shown(one.estimate)} ({'90 % interval ' if one.within else ''}{shown(one.estimate_low)} to {shown(one.estimate_high)})"
 
 
 def contrast_row(analysis, one):
