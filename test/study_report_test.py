@@ -387,6 +387,26 @@ def test_a_report_begins_with_the_answer_and_folds_what_is_behind_it(reported):
     assert "Workload, raw NASA-TLX, 0 to 100" in page.folded and "Drop-out: 0 in each of 10 trials." in page.text
 
 
+def test_the_flow_of_participants_and_trials_is_that_of_a_study_worked_out_by_hand(tmp_path):
+    from navvi_study import report
+    from navvi_study.analysis import Analysis
+    kept = study.Study(small(tmp_path, ("operator: simulated", "operator: simulated\nconsent: consent_example")))
+    kept.freeze("test", None)
+    driver = Driver(kept, "aborted", "timeout", "reached", "reached", "reached")  # sub-01: the second in place of the first; then two of sub-03
+    driver.ask = lambda participant, step, items, answered, lock: [answered(item, "no" if participant == "sub-02" and item.choices else item.values()[-1]) for item in items]
+    begun = session.Session(kept, driver, say=lambda line: None, wait=False)
+    for name in ("sub-01", "sub-02", "sub-03"):  # sub-04 does not begin
+        rest(begun, name)
+    kept.journal.append("exclude", participant="sub-03", reason="fell ill", rule=False)
+    state = kept.progress()
+    primary, _ = Analysis(kept, state).confirmatory()
+    # Planned, enrolled, completed, withdrawn, without consent, excluded, analysed.
+    assert report.flow(state, primary) == [["all", 4, 2, 1, 0, 1, 1, 1]]
+    assert report.who(state, primary) == "Participants: 4 planned, 2 enrolled, 1 completed, 1 without consent, 1 excluded, 1 analysed in the primary outcome."
+    # Driven, reached, at the limit, drop-outs, excluded, not replaced.
+    assert report.trials(state) == [["full", 3, 0, 1, 0, 2, 0], ["plain", 2, 1, 0, 0, 1, 0]]
+
+
 @pytest.mark.parametrize("measure, differences, low, high, words", [
     ("time", [-37.4] * 20, -46.4, -29.2, "In condition b, participants took 37 s less than in a [29, 46]; less in 20 of 20 pairs."),
     ("collisions", [1.0, 1.0, -0.5], -0.02, 1.1, "In condition b, participants had 0.50 more collisions a trial than in a [from 0.02 fewer to 1.10 more]; more in 2 of 3 pairs."),

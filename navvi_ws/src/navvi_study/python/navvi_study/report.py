@@ -59,7 +59,7 @@ def opening(progress):
     versions = ", ".join(dict.fromkeys(row["version"] for row in progress.freezes))
     drawn = ""
     if progress.plan.order == "drawn":
-        drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 stands in the first row of the journal." if progress.over else
+        drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 is in the journal since then." if progress.over else
                  " Orders are drawn by a seed that is printed here once nobody is left to begin.")
     return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}"
 
@@ -69,7 +69,7 @@ FLOW = {
     "enrolled": lambda progress, person: person.begun and (person.attempts or not person.refused),
     "completed": lambda progress, person: progress.complete(person),
     "withdrawn": lambda progress, person: bool(person.withdrawn),
-    "no consent": lambda progress, person: person.refused,
+    "without consent": lambda progress, person: person.refused,
     "excluded": lambda progress, person: bool(person.excluded),
 }
 
