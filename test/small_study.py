@@ -33,6 +33,7 @@ def small(folder, *changes):
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)
+    folder.mkdir(exist_ok=True)
     path = folder / "small.yaml"
     path.write_text(text)
     return plan_file.load(path)

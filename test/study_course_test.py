@@ -215,6 +215,31 @@ def test_nobody_drives_without_consent(tmp_path):
     assert rest(begun) == [] and begun.runner.driven == []
 
 
+def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_table(tmp_path):
+    from navvi_study import export
+    kept = study.Study(small(tmp_path, ("operator: simulated", "operator: simulated\nconsent: consent_example"), ("{after_condition", "{at_begin: [about_you], after_condition")))
+    kept.freeze("test", None)
+    driver = Driver(kept)
+    answers = {"sub-01": {"describe": "yes", "share": "no"}, "sub-02": {"describe": "no", "share": "yes"}}
+    driver.ask = lambda participant, step, items, answered, lock: [
+        answered(item, {"take_part": "yes", **answers[participant]}.get(item.name) or item.values()[-1]) for item in items]
+    said = []
+    for name in answers:
+        rest(session.Session(kept, driver, say=said.append, wait=False), name)
+    assert any(line == "navvi: sub-02: the questionnaire about_you is left out; the consent has no yes to \"describe\"." for line in said)
+    rows = {row["participant"]: row for row in table.trials(kept, kept.progress())}
+    columns = ("person_age_band", "person_acuity", "person_onset", "person_hearing", "person_touch")
+    assert [rows["sub-01"][name] for name in columns] == ["75 or more", "full sight", "full sight", "hearing aid", "little"]
+    assert [rows["sub-02"][name] for name in columns] == ["n/a"] * 5
+    for person in kept.progress().people.values():
+        for attempt in person.attempts:
+            (kept.attempt_folder(person.name, attempt.step, attempt.number) / attempt.trial / "journal.csv").write_text(
+                "head\nt,1,0,0,TRIAL_START,x=0;y=0,0\nt,2,9,9,TRIAL_END,x=1;y=0,0\n")
+    folder = export.write(kept, kept.progress(), lambda trial: [])
+    assert (folder / "participants.tsv").read_text().splitlines() == ["participant_id\tgroup\t" + "\t".join(columns), "sub-02\tall" + "\tn/a" * 5], "sub-01 said no to share"
+    assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
+
+
 def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
     rest(work())
     work.study.journal.append("withdraw", participant="sub-01", data="delete")

@@ -5,8 +5,8 @@ import time
 
 import pytest
 
-from small_study import EXAMPLE, PACKAGE, small
-from navvi_study import design, overview, plan_file, probe, progress, questionnaire, runner, schedule, study  # noqa: E402
+from small_study import Driver, EXAMPLE, PACKAGE, rest, small
+from navvi_study import design, overview, plan_file, probe, progress, questionnaire, runner, schedule, session, study  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
 
 # The design.
@@ -38,6 +38,43 @@ def test_no_set_of_worlds_stays_tied_to_a_place_in_the_order(size):
     assert len(met) == size * size and len(set(met.values())) == 1
 
 
+@pytest.mark.parametrize("size", range(1, 9))
+def test_a_drawn_order_is_as_balanced_as_a_listed_one_and_another_with_each_seed(size):
+    places = {seed: [design.allotted(seed, "all", at, size) for at in range(3 * size)] for seed in ("a", "b", "c", "d", "e")}
+    for drawn in places.values():
+        assert [sorted(drawn[at:at + size]) for at in range(0, 3 * size, size)] == [list(range(at, at + size)) for at in range(0, 3 * size, size)]
+    assert size < 3 or len(set(map(tuple, places.values()))) > 1
+    assert places["a"] == [design.allotted("a", "all", at, size) for at in range(3 * size)]
+
+
+DRAWN = ("limit: 60", "limit: 60\norder: drawn")
+
+
+def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it_is_due(tmp_path):
+    import hashlib
+    from navvi_study import preregistration, report
+    plan = small(tmp_path, DRAWN)
+    shown = "\n".join(overview.schedule(plan))
+    assert "sub-02" not in shown and "it is one of: full, plain; plain, full." in shown
+    kept = study.Study(plan)
+    kept.freeze("test", None)
+    seed = (tmp_path / "small/allocation.seed").read_text().strip()
+    assert len(seed) == 32 and kept.journal.rows()[0]["allocation"] == hashlib.sha256(seed.encode()).hexdigest()
+    files = [path for path in (tmp_path / "small").iterdir() if path.name != "allocation.seed"] + [preregistration.write(kept)]
+    assert not any(seed in path.read_text() for path in files), "the frozen plan and the journal do not tell it"
+    firsts = [next(step.condition for step in person.steps if step.kind == "trial") for person in study.Study(plan).progress().people.values()]
+    assert [sorted(firsts[:2]), sorted(firsts[2:])] == [["full", "plain"]] * 2
+    waiting = "\n".join(overview.status(kept, kept.progress()))
+    assert "next is s1-c1-trial-1." in waiting and "in full" not in waiting and "in plain" not in waiting
+    assert "printed here once" in report.opening(kept.progress())
+    for name in plan.participants:
+        rest(session.Session(kept, Driver(kept), say=lambda line: None, wait=False), name)
+    assert f"drawn by the seed {seed}" in report.opening(kept.progress())
+    (tmp_path / "small/allocation.seed").write_text("another")
+    with pytest.raises(StudyError, match="allocation.seed is missing or changed since the plan was frozen"):
+        study.Study(plan)
+
+
 # The plan.
 
 @pytest.mark.parametrize("old, new, sentence", [
@@ -61,6 +98,9 @@ def test_no_set_of_worlds_stays_tied_to_a_place_in_the_order(size):
     ("[plain, full]", "[plain, none]", "allowed is one of: full, plain"),
     ("[plain, full]", "[plain, plain]", "allowed are two conditions"),
     ("measure: time", "measure: sus", "does not ask sus"),
+    ("{after_condition: [tlx]}", "{at_begin: [about_you]}", "needs \"yes\" to the item describe of the consent; the consent's items with a yes are: none"),
+    ("measure: time", "equivalent_within: 0, measure: time", "\"outcomes/primary/equivalent_within\" is 0; allowed is a number from 1e-06"),
+    ("outcomes: {", "outcomes: {exposure: way, ", "\"outcomes/exposure\" is \"way\"; allowed is one of: trial, time, path"),
     ("[tlx]", "[txl]", "allowed are files in"),
     ("column: result, is: [aborted, invalid]", "column: result", "needs one of the keys"),
     ("title: A small study", "", "the key \"title\" is missing"),
@@ -89,6 +129,26 @@ def test_the_example_can_be_checked_and_nobody_meets_a_world_twice():
     assert "balanced for order and first-order carry-over" in text
 
 
+def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
+    from navvi_study import preregistration
+    kept = study.Study(small(tmp_path, ("[plain, full]}", "[plain, full], equivalent_within: 5}, exposure: path, secondary: [{measure: collisions, conditions: [plain, full]}]")))
+    kept.freeze("0.1.0", None)
+    text = preregistration.write(kept).read_text()
+    assert text.startswith(f"# A small study: pre-registration\n\nStudy small; the plan was frozen on ") and kept.plan.hash() in text
+    headings = [line for line in text.splitlines() if line.startswith("## ")]
+    assert headings == [f"## {name}" for name in ("Hypotheses", "Design", "Participants", "Measures", "Analysis", "Exclusions")]
+    for line in ("Primary: Time to the goal: full and plain are equivalent within 5 (s).", "Secondary: Collisions: full and plain differ.",
+                 "Group all: 2 orders, balanced for order and first-order carry-over.", "Group all: 4, in the conditions full, plain.",
+                 "Collisions, per 100 m, of trials that count.", "Condition plain: no touch, speech, sounds, no picture, profile default.",
+                 "The same holds where result is aborted or invalid: the trial broke off.", preregistration.MODELS["count"], preregistration.EQUIVALENCE):
+        assert f"- {line}\n" in text
+    assert preregistration.MODELS["time"] not in text, "no difference of times is tested"
+    changed = study.Study(small(tmp_path, ("limit: 60", "limit: 90")))
+    changed.freeze("0.1.0", "too short")
+    text = preregistration.write(changed).read_text()
+    assert ", too short: limit: 60.0 is now 90.0" in text and "full and plain differ." in text and "after 90 s" in text
+
+
 def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
     for path in (PACKAGE / "studies/questionnaires").glob("*.yaml"):
         asked = questionnaire.load(path)
@@ -99,6 +159,7 @@ def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
     tlx = questionnaire.find("tlx", EXAMPLE.parent)
     assert tlx.scored({item.name: str(10 * at) for at, item in enumerate(tlx.items)}, {}) == 25.0
     assert tlx.scored({item.name: "declined" for item in tlx.items}, {}) is None
+    assert sus.scored({item.name: "3" if at else "declined" for at, item in enumerate(sus.items)}, {}) is None
     probe = questionnaire.find("probe", EXAMPLE.parent)
     assert probe.scored({"goal": "80", "start": "0", "left": "wall"}, {"goal": "-20", "start": "40", "left": "n/a"}) == 30.0
     assert probe.scored({"goal": "declined"}, {"goal": "n/a"}) is None

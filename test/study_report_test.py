@@ -270,24 +270,42 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.parts, self.links, self.text = [], [], ""
+        self.parts, self.links, self.text, self.folded, self.open = [], [], "", "", []
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
         if tag in ("h1", "h2", "h3", "img", "table", "html"):
             self.parts.append((tag, attributes))
+        if tag == "th":
+            assert attributes["scope"] in ("col", "row")
+        if tag in ("details", "summary"):
+            self.open.append(tag)
         self.links += [attributes[name] for name in ("src", "href") if name in attributes]
+
+    def handle_endtag(self, tag):
+        if tag in ("details", "summary"):
+            assert self.open.pop() == tag
 
     def handle_data(self, data):
         self.text += data
+        self.folded += data if self.open == ["details"] else ""
+
+
+SIX = (("sub-04", "sub-06"), ("full]}}", "full]}, secondary: [{measure: collisions, conditions: [plain, full]}]}"))
 
 
 @pytest.fixture(scope="module")
 def reported(tmp_path_factory):
-    """A study of six people, half as quick and with twice the collisions in one condition."""
+    """A study of six people, half as quick in one condition, with 3 collisions in each trial."""
     from navvi_study import report
-    kept = study.Study(small(tmp_path_factory.mktemp("reported"), ("sub-04", "sub-06"), ("full]}}", "full]}, secondary: [{measure: collisions, conditions: [plain, full]}]}")))
+    kept = driven(tmp_path_factory.mktemp("reported"), *SIX)
+    kept.journal.append("exclude", participant="sub-06", reason="fell ill", rule=False)
+    return kept, report.page(kept, kept.progress(), rehearsed=False)
+
+
+def driven(folder, *changes):
+    kept = study.Study(small(folder, *changes))
     kept.freeze("0.1.0", None)
 
     class Drawn(Driver):
@@ -296,8 +314,7 @@ def reported(tmp_path_factory):
             write_summary(folder / f"trial-{participant}-{step.name}", elapsed=factor * (15.0 + int(participant[-1])))
     for name in kept.plan.participants:
         rest(session.Session(kept, Drawn(kept), say=lambda line: None, wait=False), name)
-    kept.journal.append("exclude", participant="sub-06", reason="fell ill", rule=False)
-    return kept, report.page(kept, kept.progress(), rehearsed=False)
+    return kept
 
 
 def test_a_report_gives_the_difference_that_is_worked_out_by_hand(reported):
@@ -315,10 +332,10 @@ def test_a_report_is_read_without_eyes_and_without_a_network(reported):
     kept, text = reported
     page = Page(text)
     assert dict(page.parts[0][1])["lang"] == "en"
-    headings = [tag for tag, _ in page.parts if tag.startswith("h") and tag != "html"]
-    assert headings[0] == "h1" and headings.count("h1") == 1 and headings[1] == "h2"
+    headings = [int(tag[1]) for tag, _ in page.parts if tag.startswith("h") and tag != "html"]
+    assert headings[0] == 1 and headings.count(1) == 1 and all(after <= before + 1 for before, after in zip(headings, headings[1:]))
     images = [at for at, (tag, _) in enumerate(page.parts) if tag == "img"]
-    assert len(images) >= 5
+    assert len(images) == 2, "of time and workload; the others are alike in all trials"
     for at in images:
         assert len(page.parts[at][1]["alt"]) > 60
         assert page.parts[at + 1][0] == "table"
@@ -333,7 +350,7 @@ def test_a_way_is_as_long_as_its_legs():
 
 
 def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
-    from navvi_study import report
+    from navvi_study import report, ways
     rest(work())
     for attempt in work.study.progress().person("sub-01").attempts:
         folder = work.study.attempt_folder("sub-01", attempt.step, attempt.number) / attempt.trial
@@ -345,7 +362,7 @@ def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
     text = report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: asked.append(world) or b"")
     page = Page(text)
     assert "Cues a minute" in page.text and "The map of this world could not be drawn." in page.text
-    assert any("3 sentences, 0 sounds and 0 felt patterns a minute" in part.get("alt", "") for _, part in page.parts)
+    assert report.cues(ways.records(work.study, work.study.progress()), work.study.plan) == [["full", 1, "3", "0", "0"], ["plain", 1, "3", "0", "0"]]
     (world, seed, [(colour, dashes, way), *_]), = asked
     assert (world, seed, colour, dashes) == ("n/a", "n/a", "#0072b2", "solid") and len(way) > 1
     shown = report.page(work.study, work.study.progress(), rehearsed=False, picture=lambda *world: b"<svg")
@@ -354,7 +371,63 @@ def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
 
 def test_a_contrast_has_one_sign_in_all_of_a_report(reported):
     _, text = reported
-    assert text.count("full minus plain") > 5 and "plain minus full" not in text, "the plan's order, not that of the conditions"
+    assert "full minus plain" in text and "plain minus full" not in text, "the plan's order, not that of the conditions"
+    assert "-18" not in text and text.count("18 s less") == 1, "in words there is no sign to mistake"
+
+
+def test_a_report_begins_with_the_answer_and_folds_what_is_behind_it(reported):
+    _, text = reported
+    page = Page(text)
+    # Five people of 16 to 20 s, twice as slow in plain: -18 s on average, with an error of sqrt(2 / 5) and so 18 +- 1.2.
+    answer = "In condition full, participants took 18 s less than in plain [17, 19]; less in 5 of 5 pairs."
+    who = "Participants: 6 planned, 6 enrolled, 5 completed, 1 excluded, 5 analysed in the primary outcome."
+    at = [page.text.index(words) for words in ("Result", answer, who, "Secondary outcomes", "Participants and trials", "Other measures", "Quality of the data")]
+    assert at == sorted(at) and answer not in page.folded
+    assert page.text.count("Collisions: 3 in each of 10 trials.") == 1, "alike in all trials: nothing is compared"
+    assert "Workload, raw NASA-TLX, 0 to 100" in page.folded and "Drop-out: 0 in each of 10 trials." in page.text
+
+
+def test_the_flow_of_participants_and_trials_is_that_of_a_study_worked_out_by_hand(tmp_path):
+    from navvi_study import report
+    from navvi_study.analysis import Analysis
+    kept = study.Study(small(tmp_path, ("operator: simulated", "operator: simulated\nconsent: consent_example")))
+    kept.freeze("test", None)
+    driver = Driver(kept, "aborted", "timeout", "reached", "reached", "reached")  # sub-01: the second in place of the first; then two of sub-03
+    driver.ask = lambda participant, step, items, answered, lock: [answered(item, "no" if participant == "sub-02" and item.choices else item.values()[-1]) for item in items]
+    begun = session.Session(kept, driver, say=lambda line: None, wait=False)
+    for name in ("sub-01", "sub-02", "sub-03"):  # sub-04 does not begin
+        rest(begun, name)
+    kept.journal.append("exclude", participant="sub-03", reason="fell ill", rule=False)
+    state = kept.progress()
+    primary, _ = Analysis(kept, state).confirmatory()
+    # Planned, enrolled, completed, withdrawn, without consent, excluded, analysed.
+    assert report.flow(state, primary) == [["all", 4, 2, 1, 0, 1, 1, 1]]
+    assert report.who(state, primary) == "Participants: 4 planned, 2 enrolled, 1 completed, 1 without consent, 1 excluded, 1 analysed in the primary outcome."
+    # Driven, reached, at the limit, drop-outs, excluded, not replaced.
+    assert report.trials(state) == [["full", 3, 0, 1, 0, 2, 0], ["plain", 2, 1, 0, 0, 1, 0]]
+
+
+@pytest.mark.parametrize("measure, differences, low, high, words", [
+    ("time", [-37.4] * 20, -46.4, -29.2, "In condition b, participants took 37 s less than in a [29, 46]; less in 20 of 20 pairs."),
+    ("collisions", [1.0, 1.0, -0.5], -0.02, 1.1, "In condition b, participants had 0.50 more collisions a trial than in a [from 0.02 fewer to 1.10 more]; more in 2 of 3 pairs."),
+    ("drop_out", [-0.5, 0.0, 0.0, 0.0], -0.25, 0.0, "In condition b, participants dropped out 12 percentage points less often than in a [0, 25]; less in 1 of 4 pairs, alike in 3."),
+    ("time", [-0.6] * 2, -13.8, 13.0, "In condition b, participants took 0.6 s less than in a [from 13.0 more to 13.8 less]; less in 2 of 2 pairs."),
+    ("tlx", [2.0, 0.0], None, None, "In condition b, the workload was 1.0 points higher than in a; higher in 1 of 2 pairs, alike in 1."),
+    ("sus", [2.0, -2.0], None, None, "Usability, SUS: b and a have the same mean over 2 participants."),
+])
+def test_a_difference_is_told_in_words_without_a_sign(measure, differences, low, high, words):
+    import pandas as pd
+    from navvi_study import report
+    from navvi_study.analysis import Analysis, Contrast
+    told = Analysis.__new__(Analysis)
+    told.plan = type("Plan", (), {"exposure": "trial"})
+    assert report.sentence(told, Contrast(measure, "a", "b", pd.Series(differences), sum(differences) / len(differences), low, high)) == words
+
+
+def test_a_column_without_a_value_is_not_shown():
+    from navvi_study import report
+    assert report.filled(["Name", "p", "Note"], [["a", "n/a", ""], ["b", "n/a", "few"]]) == [["Name", "Note"], ["a", ""], ["b", "few"]]
+    assert report.filled(["Name", "p"], []) == [["Name"]]
 
 
 def test_replaced_is_what_another_trial_was_driven_for(work):
@@ -387,12 +460,61 @@ def test_the_same_study_gives_the_same_report(reported):
     assert report.page(kept, study.Study(kept.plan).progress(), rehearsed=False) == text
 
 
+def test_counts_are_divided_by_the_exposure_that_the_plan_names(tmp_path):
+    from navvi_study import report
+    from navvi_study.analysis import Analysis
+    kept = driven(tmp_path, *SIX, ("outcomes: {", "outcomes: {exposure: time, "))
+    analysis = Analysis(kept, kept.progress())
+    one = analysis.contrast("collisions", "plain", "full")
+    # 3 collisions in t s, and in 2 t s: 180 / t and 90 / t a minute, for t of 16 to 21 s; each has twice the rate in full.
+    assert one.difference == pytest.approx(sum(90 / seconds for seconds in range(16, 22)) / 6)
+    assert one.estimate == pytest.approx(2.0) and analysis.unit("collisions") == "a minute"
+    assert "In condition full, participants had 4.9 more collisions a minute than in plain" in report.page(kept, kept.progress(), rehearsed=False)
+    assert kept.plan.values()["exposure"] == "time" and "exposure" not in small(tmp_path).values()
+
+
+def test_a_participants_rate_is_all_that_was_counted_over_all_exposure():
+    import pandas as pd
+    from navvi_study.analysis import by_participant
+    rows = [("a", "full", 1.0, 1.0), ("a", "full", 3.0, 3.0), ("a", "plain", 4.0, 1.0)]
+    means = by_participant(pd.DataFrame(rows, columns=["participant", "condition", "value", "exposure"]))
+    assert means.loc["a"].to_dict() == {"full": 1.0, "plain": 4.0}
+
+
+def test_equivalence_is_two_one_sided_tests_within_what_the_plan_names(tmp_path):
+    import numpy as np
+    from navvi_study import report
+    from navvi_study.analysis import Contrast, _equivalence
+    one = _equivalence(Contrast("time", "a", "b", within=3.0), np.array([1.0, 2.0, 3.0, 2.0, 2.0]))
+    # Mean 2, SD sqrt(1 / 2), error sqrt(1 / 10): t = (3 - 2) / 0.3162 = 3.162 with 4 degrees of freedom, and 2 +- 2.132 x 0.3162.
+    assert one.p == pytest.approx(0.01705, abs=5e-6)
+    assert (one.estimate_low, one.estimate_high) == (pytest.approx(1.326, abs=5e-4), pytest.approx(2.674, abs=5e-4))
+    assert _equivalence(Contrast("time", "a", "b", within=1.0), np.array([1.0, 2.0, 3.0, 2.0, 2.0])).p == pytest.approx(1 - 0.01705, abs=5e-6)
+    for within, words in ((21, "The two are equivalent within 21, the plan's smallest effect of interest."), (19, "not shown to be equivalent within 19,")):
+        kept = driven(tmp_path / str(within), ("sub-04", "sub-06"), ("full]}}", f"full], equivalent_within: {within}}}}}"))
+        assert words in report.page(kept, kept.progress(), rehearsed=False).replace("&#39;", "'")
+    assert "within" not in small(tmp_path).values()["primary"], "plans without keep their hash"
+
+
+def test_a_workload_with_one_item_declined_is_prorated_and_the_report_says_so(work):
+    from navvi_study import report
+    begun = work()
+    begun.runner.ask = lambda participant, step, items, answered, lock: [
+        answered(item, "declined" if (step.order, at) in ((1, 0), (2, 0), (2, 1)) else str(10 * at)) for at, item in enumerate(items)]
+    rest(begun)
+    # Order 1: 10 to 50 without the first of six; order 2: two are declined, which gives no score.
+    assert [(row["score"], row["prorated"]) for row in table.scores(work.study, work.study.progress())] == [(30.0, True), (None, False)]
+    begun.runner.ask = lambda participant, step, items, answered, lock: [answered(item, "20") for item in items]
+    rest(begun, "sub-02")
+    assert "1 of 3 scores are prorated: one item was declined" in report.page(work.study, work.study.progress(), rehearsed=False)
+
+
 def test_models_find_what_was_put_in_and_nothing_where_nothing_is():
     import numpy as np
     import pandas as pd
     from navvi_study.analysis import MODELS, Contrast
     source = np.random.default_rng(7)
-    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True,
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True, "exposure": 1.0,
              "count": source.poisson(3.0 * (2.0 if second else 1.0) * ability), "time": min(60.0, source.exponential(20.0 if second else 40.0) * ability)}
             for person in range(40) for ability in [source.gamma(8.0, 1 / 8.0)] for second in (0, 1) for _ in range(3)]
     values = pd.DataFrame(rows).assign(reached=lambda rows: rows["time"] < 60.0)
@@ -411,7 +533,7 @@ def test_where_all_are_quicker_in_one_condition_there_is_a_p_though_no_ratio():
     import pandas as pd
     import scipy.stats
     from navvi_study.analysis import MODELS, Contrast
-    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True,
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True, "exposure": 1.0,
              "value": 30.0 + person - 10.0 * second} for person in range(12) for second in (0, 1)]
     one = Contrast("time", "a", "b")
     MODELS["time"](one, pd.DataFrame(rows), None)
@@ -424,7 +546,7 @@ def test_where_nothing_is_counted_in_one_condition_ranks_are_compared(kind):
     import numpy as np
     import pandas as pd
     from navvi_study.analysis import MODELS, Contrast
-    rows = [{"participant": f"sub-{person:02d}", "order": 1 + second, "second": float(second), "reached": True,
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + second, "second": float(second), "reached": True, "exposure": 1.0,
              "value": 0.0 if not second else float(person % 2)} for person in range(12) for second in (0, 1)]
     values = pd.DataFrame(rows)
     one = Contrast(kind, "a", "b")
@@ -443,7 +565,12 @@ def test_a_figure_shows_all_values_of_all_groups():
 
         @staticmethod
         def values(name):
-            return pd.DataFrame([{"group": group, "participant": group, "condition": "full", "value": value} for group, value in (("a", 10.0), ("b", 90.0))])
+            return pd.DataFrame([{"group": group, "participant": group, "condition": "full", "value": value, "exposure": 1.0}
+                                 for group, value in (("a", 10.0), ("b", 90.0))])
+
+        @staticmethod
+        def unit(name):
+            return "s"
     limits = []
     close = figures.plt.close
     figures.plt.close = lambda drawing: (limits.extend(panel.get_ylim() for panel in drawing.axes), close(drawing))
@@ -464,7 +591,7 @@ def test_a_test_of_a_dozen_participants_finds_nothing_no_more_often_than_it_may(
     found, tried = 0, 0
     for seed in range(100):
         source = np.random.default_rng(seed)
-        rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True,
+        rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True, "exposure": 1.0,
                  "value": float(source.poisson(2.0 * ability) if kind == "count" else source.random() < ability / (1 + ability))}
                 for person in range(12) for ability in [source.gamma(4.0, 1 / 4.0)] for second in (0, 1) for _ in range(2)]
         one = Contrast(kind, "a", "b")

@@ -60,7 +60,8 @@ class Freeze:
     """Fix the plan: its hash, the version of NavVI, outcome and exclusions.
 
     Nothing is recorded before. A plan that changes later must be frozen again
-    with a reason; the report lists each change.
+    with a reason; the report lists each change. preregistration.md has the plan
+    in words, for a registry.
 
     Exit codes
     0: frozen. 2: a wrong plan, or nothing to freeze.
@@ -73,7 +74,7 @@ class Freeze:
 
     @staticmethod
     def run(args):
-        from . import overview, worlds
+        from . import overview, preregistration, worlds
         study = opened(args)
         if any(map(study.plan.world_file, study.plan.worlds)):
             worlds.require_things(study.plan, TOOLS["tool"]("navvi_sim", "world_tool"))
@@ -82,6 +83,7 @@ class Freeze:
         for change in changes or []:
             print(f"  changed: {change}")
         print("\n".join(overview.broken_off(study.plan)))
+        print(f"navvi: written: {preregistration.write(study)}")
 
 
 class Next:

@@ -11,12 +11,10 @@ from statsmodels.stats.multitest import multipletests
 from statsmodels.tools.sm_exceptions import PerfectSeparationError
 
 from . import measures, table
-from .measures import MEASURES
+from .measures import LEAST, MEASURES, RESAMPLES
 
-RESAMPLES = 10000
 SEED = 20260101  # of the bootstrap: the same data give the same interval
 MOST_ERROR = 5.0  # of a logarithm of a ratio, beyond which there is no estimate
-LEAST = 5  # participants, below which an interval or a test is not given
 
 
 @dataclass
@@ -25,8 +23,8 @@ class Contrast:
     measure: str
     first: str
     second: str
-    participants: int = 0  # with both
-    difference: float = None  # mean of the participants' differences, second minus first
+    differences: pd.Series = None  # second minus first, by participant with both
+    difference: float = None  # their mean
     low: float = None  # 95 % bootstrap over participants
     high: float = None
     model: str = ""
@@ -37,6 +35,16 @@ class Contrast:
     p: float = None
     corrected: float = None
     note: str = ""
+    within: float = 0.0  # of an equivalence: the plan's smallest effect of interest
+
+    @property
+    def participants(self):
+        return 0 if self.differences is None else len(self.differences)
+
+    @property
+    def agreeing(self):
+        """Participants whose own difference has the sign of the mean."""
+        return int((self.differences * self.difference > 0).sum())
 
 
 class Analysis:
@@ -44,51 +52,70 @@ class Analysis:
         self.plan = progress.plan
         rows = [row for row in table.trials(study, progress) if row["counts"] in ("yes", measures.DROP_OUT)]
         self.trials = pd.DataFrame(rows, columns=list(rows[0]) if rows else ["participant", "group", "condition", "order", "result"])
-        self.scores = pd.DataFrame(table.scores(study, progress), columns=["participant", "group", "condition", "order", "questionnaire", "score"])
+        self.scores = pd.DataFrame(table.scores(study, progress), columns=["participant", "group", "condition", "order", "questionnaire", "score", "prorated"]).replace({"condition": "n/a"}, "at the end")
 
     def values(self, name):
-        """A row a trial, or an answered questionnaire: participant, group, condition, order, value, reached."""
+        """A row a trial, or an answered questionnaire: participant, group, condition, order, value, exposure, reached."""
         measure = MEASURES[name]
         if measure.questionnaire:
-            rows = self.scores[self.scores["questionnaire"] == measure.questionnaire].rename(columns={"score": "value"}).assign(reached=True)
+            rows = self.scores[self.scores["questionnaire"] == measure.questionnaire].rename(columns={"score": "value"}).assign(exposure=1.0, reached=True)
         else:
-            rows = self.trials.assign(value=[measures.value(measure, row) for row in self.trials.to_dict("records")],
-                                      reached=self.trials["result"] == "reached")
-        rows = rows[["participant", "group", "condition", "order", "value", "reached"]].dropna(subset=["value"])
-        return rows.astype({"value": float, "order": int})
+            trials = self.trials.to_dict("records")
+            rows = self.trials.assign(value=[measures.value(measure, row) for row in trials], reached=self.trials["result"] == "reached",
+                                      exposure=[measures.exposure(measure, row, self.plan.exposure) for row in trials])
+        rows = rows[["participant", "group", "condition", "order", "value", "exposure", "reached"]].dropna(subset=["value", "exposure"])
+        return rows.astype({"value": float, "exposure": float, "order": int})
+
+    def unit(self, name):
+        measure = MEASURES[name]
+        return measures.EXPOSURES[self.plan.exposure][0] if measure.kind == "count" else measure.unit
+
+    def prorated(self, name):
+        """How many scores of the measure leave an item out."""
+        return int(self.scores.loc[self.scores["questionnaire"] == MEASURES[name].questionnaire, "prorated"].sum())
+
+    def alike(self, name):
+        """Whether all trials have the same value: nothing to draw or to compare."""
+        values = self.values(name)
+        return np.ptp(values["value"] / values["exposure"]) == 0
 
     def asked(self):
         """Names of all measures that have values."""
         return [name for name in MEASURES if len(self.values(name))]
 
     def by_condition(self, name):
-        """A row a group and condition: participants, trials, mean and SD of the participants' means, median, and for times how many were
-        not reached."""
+        """A row a group and condition: participants, trials, mean, SD and median of the participants' means, and for times how many trials
+        were not reached."""
         rows = []
         for (group, condition), part in self.values(name).groupby(["group", "condition"], sort=False):
-            means = part.groupby("participant")["value"].mean()
+            means = by_participant(part)[condition]
             low, high = interval(means.to_numpy())
             rows.append({"group": group, "condition": condition, "participants": len(means), "trials": len(part), "mean": means.mean(),
-                         "low": low, "high": high, "sd": means.std(ddof=1), "median": part["value"].median(), "least": part["value"].min(),
-                         "most": part["value"].max(), "unfinished": int((~part["reached"]).sum())})
+                         "low": low, "high": high, "sd": means.std(ddof=1), "median": means.median(), "unfinished": int((~part["reached"]).sum())})
         names = [condition.name for condition in self.plan.conditions]
         return sorted(rows, key=lambda row: (row["group"], names.index(row["condition"]) if row["condition"] in names else -1))
 
-    def contrast(self, name, first, second):
+    def contrast(self, name, first, second, within=0.0):
+        """\\param within  above 0: whether the two are equivalent, by two one-sided tests, instead of whether they differ"""
         values = self.values(name)
         values = values[values["condition"].isin([first, second])]
-        means = values.pivot_table(index="participant", columns="condition", values="value", aggfunc="mean").dropna()
-        result = Contrast(name, first, second, participants=len(means) if {first, second} <= set(means) else 0)
-        if not result.participants:
+        means = by_participant(values).dropna()
+        result = Contrast(name, first, second, within=within)
+        if means.empty or not {first, second} <= set(means):
             result.note = "nobody has both conditions"
             return result
-        differences = (means[second] - means[first]).to_numpy()
+        result.differences = means[second] - means[first]
+        differences = result.differences.to_numpy()
         result.difference = differences.mean()
         result.low, result.high = interval(differences)
         if result.participants < LEAST:
             result.note = f"fewer than {LEAST} participants: no interval and no test"
             return result
-        values = values[values["participant"].isin(means.index)].assign(second=lambda rows: (rows["condition"] == second).astype(float))
+        values = values[values["participant"].isin(means.index)]
+        if within:
+            result.note = _late(name, values)
+            return _equivalence(result, differences)
+        values = values.assign(second=lambda rows: (rows["condition"] == second).astype(float))
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
@@ -99,9 +126,11 @@ class Analysis:
         if result.p is not None and not np.isfinite(estimates).all():
             result.p = result.estimate = result.estimate_low = result.estimate_high = None
             result.note = "the model cannot be estimated from these data"
+        differ = ""
         if result.p is not None and result.low is not None and (result.low > 0 or result.high < 0) != (result.p < 0.05):
-            words = ("the interval excludes 0, and p is not below 0.05" if result.p >= 0.05 else "p is below 0.05, and the interval holds 0")
-            result.note = "; ".join(filter(None, [result.note, f"{words}: mean and model differ here, and p decides"]))
+            differ = ("the interval excludes 0, and p is not below 0.05" if result.p >= 0.05 else "p is below 0.05, and the interval holds 0")
+            differ += ": mean and model differ here, and p decides"
+        result.note = "; ".join(filter(None, [result.note, _late(name, values), differ]))
         return result
 
     def confirmatory(self):
@@ -111,9 +140,10 @@ class Analysis:
         return primary, corrected([self._of(question) for question in self.plan.secondary], "holm")
 
     def exploratory(self):
-        """All that was not asked for before, with p corrected by Benjamini and Hochberg."""
+        """All that was not asked for before and differs in anybody, with p corrected by Benjamini and Hochberg."""
         asked = {(one.measure, frozenset((one.first, one.second))) for one in self._questions()}
-        return corrected([self.contrast(name, *pair) for name in self.asked() for pair in self.pairs(name) if (name, frozenset(pair)) not in asked], "fdr_bh")
+        contrasts = [self.contrast(name, *pair) for name in self.asked() for pair in self.pairs(name) if (name, frozenset(pair)) not in asked]
+        return corrected([one for one in contrasts if one.participants and one.differences.any()], "fdr_bh")
 
     def pairs(self, name):
         """All that is compared by the measure, each pair once and in the plan's order: as the outcome of this measure names it, else as
@@ -128,7 +158,20 @@ class Analysis:
         return (self.plan.primary, *self.plan.secondary)
 
     def _of(self, question):
-        return self.contrast(question.measure, question.first, question.second)
+        return self.contrast(question.measure, question.first, question.second, question.within)
+
+
+def _late(name, values):
+    """Of a time: how many trials enter the mean with the limit."""
+    late = values[~values["reached"]].groupby("condition").size()
+    words = " and ".join(f"{count} in {condition}" for condition, count in late.items())
+    return f"trials that ended at the limit, and enter the mean with it: {words}" if words and MEASURES[name].kind == "time" else ""
+
+
+def by_participant(values):
+    """A row a participant, a column a condition: the mean of the trials, of counts their sum over that of the exposures."""
+    sums = values.groupby(["participant", "condition"])[["value", "exposure"]].sum()
+    return (sums["value"] / sums["exposure"]).unstack()
 
 
 def interval(values):
@@ -171,20 +214,20 @@ def _of_few(fit, values):
 
 
 def _count(result, values, differences):
-    """Negative binomial by GEE, participants as clusters; its dispersion from a plain negative binomial model first."""
-    predictors = _predictors(values)
+    """Negative binomial by GEE, participants as clusters, over the exposure; its dispersion from a plain negative binomial model first."""
+    predictors, exposure = _predictors(values), values["exposure"].to_numpy()
     if values["value"].sum() == 0:
         raise ValueError("nothing was counted")
     if values.groupby("second")["value"].sum().min() == 0:
         result.note = "nothing was counted under one of the conditions, so that no ratio can be estimated"
         return _number(result, values, differences)
     try:
-        dispersion = float(sm.NegativeBinomial(values["value"], predictors).fit(disp=False).params["alpha"])
+        dispersion = float(sm.NegativeBinomial(values["value"], predictors, exposure=exposure).fit(disp=False).params["alpha"])
     except np.linalg.LinAlgError:
         dispersion = 1.0
     dispersion = min(max(dispersion, 1e-3), 10.0) if np.isfinite(dispersion) else 1.0
     family = sm.families.NegativeBinomial(alpha=dispersion)
-    fit = sm.GEE(values["value"], predictors, groups=values["participant"], family=family, cov_struct=sm.cov_struct.Exchangeable())
+    fit = sm.GEE(values["value"], predictors, groups=values["participant"], family=family, cov_struct=sm.cov_struct.Exchangeable(), exposure=exposure)
     return _ratio(result, "negative binomial, GEE by participant", "rate ratio", *_of_few(fit.fit(cov_type="bias_reduced"), values))
 
 
@@ -219,6 +262,16 @@ def _share(result, values, differences):
     fit = sm.GEE(values["value"], _predictors(values), groups=values["participant"], family=sm.families.Binomial(),
                  cov_struct=sm.cov_struct.Exchangeable()).fit(cov_type="bias_reduced")
     return _ratio(result, "logistic, GEE by participant", "odds ratio", *_of_few(fit, values))
+
+
+def _equivalence(result, differences):
+    """Two one-sided t tests of the participants' differences against the smallest effect of interest (Schuirmann, Journal of Pharmacokinetics
+    and Biopharmaceutics 15, 1987); the interval of 90 % is that of the same two tests."""
+    free, error = len(differences) - 1, differences.std(ddof=1) / np.sqrt(len(differences))
+    result.model, result.effect, result.estimate = f"two one-sided t tests within {result.within:g}", "mean difference", float(differences.mean())
+    result.p = float(scipy.stats.t.sf((result.within - abs(result.estimate)) / error, free)) if error else float(abs(result.estimate) >= result.within)
+    result.estimate_low, result.estimate_high = (float(result.estimate + sign * scipy.stats.t.ppf(0.95, free) * error) for sign in (-1, 1))
+    return result
 
 
 def _number(result, values, differences):

@@ -24,6 +24,14 @@ def latin_square(size):
     return [[(row + column) % size for column in range(size)] for row in range(size)]
 
 
+def allotted(seed, group, index, orders):
+    """The place that is drawn for the participant: in blocks of as many participants as orders, so that each block has each order once."""
+    block, within = divmod(index, orders)
+    places = list(range(orders))
+    drawn(seed, group, block).shuffle(places)
+    return block * orders + places[within]
+
+
 def set_of(participant, condition, sets, orders):
     """Which set of worlds a participant meets under a condition. By participant it goes round the Latin square, and one further with
     each round of the orders, so that no set stays tied to a place in the order.

@@ -16,6 +16,7 @@ RATE = 20.0  # Hz, of the way; odometry comes at another, even rate
 VERSION = "1.10.0"
 CHANNELS = (("x", "POS", "x", "m"), ("y", "POS", "y", "m"), ("yaw", "ORNT", "z", "rad"))
 TRACKING = "odometry"
+SHARE = "share"  # item of the consent: who did not say yes to it is left out
 PARTICIPANTS = {"group": {"Description": "group of the plan"}}
 EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Units": "s"}, "duration": {"Units": "s"},
           "trial_type": {"Description": "what happened, as doc/record.md lists it, or the experimenter's mark, note, intervention or abort"}}
@@ -31,10 +32,12 @@ def write(study, progress, read_way):
                                                 "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})
     write_safely(folder / "README", f"{plan.title}\n\nA robot in a simulated warehouse, driven by a person who is guided by touch, speech and sounds. "
                  f"The acquisition (acq) is the condition. Plan: {plan.hash()}\n")
-    rows = [row for row in table.trials(study, progress) if row["counts"] == "yes"]
-    people = sorted({(row["participant"], row["group"]) for row in rows})
-    _tsv(folder / "participants.tsv", ["participant_id", "group"], [[_subject(name), group] for name, group in people])
-    _json(folder / "participants.json", PARTICIPANTS)
+    asked = plan.consent and SHARE in [item.name for item in plan.consent.items]
+    rows = [row for row in table.trials(study, progress) if row["counts"] == "yes" and (not asked or study.agreed(row["participant"], SHARE))]
+    people = {row["participant"]: [row["group"], *table.about(study, progress.people[row["participant"]]).values()] for row in rows}
+    items = {f"person_{item.name}": {"Description": item.ask} for one in plan.at_begin for item in one.items}
+    _tsv(folder / "participants.tsv", ["participant_id", "group", *items], [[_subject(name), *cells] for name, cells in sorted(people.items())])
+    _json(folder / "participants.json", {**PARTICIPANTS, **items})
     runs = {}
     for row in rows:
         key = (row["participant"], row["session"], row["condition"])

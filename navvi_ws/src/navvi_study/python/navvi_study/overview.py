@@ -1,5 +1,5 @@
 """What `study check` and `study status` print: plain lines, for a screen reader as well."""
-from .schedule import minutes_of, order_of, steps_of
+from .schedule import minutes_of, order_of, orders_of, steps_of
 from .session import why_nothing
 
 
@@ -7,23 +7,31 @@ def schedule(plan):
     """The whole study, before anything starts."""
     lines = [f"{plan.title}: study {plan.study}, {len(plan.participants)} participants in {len(plan.groups)} groups, {_count(plan.sessions, 'session')} each.",
              f"Primary outcome: {question(plan.primary)}. Everything is kept in {plan.folder}.", ""]
-    for condition in plan.conditions:
-        switched = [f"{'no ' if not getattr(condition, name) else ''}{name}" for name in ("touch", "speech", "sounds", "picture")]
-        lines.append(f"Condition {condition.name}: {', '.join(switched)}, profile {condition.profile}"
-                     + "".join(f", {name} {value}" for name, value in condition.parameters) + ".")
-    lines += broken_off(plan)
+    lines += [*conditions(plan), *broken_off(plan)]
     lines += [f"Worlds: {len(plan.sets)} sets of {len(plan.sets[0])}, {len(plan.reserve)} in reserve; {plan.limit:g} s at most in each.", ""]
     for group in plan.groups:
         lines.append(f"Group {group.name}:")
-        for name in group.participants:
+        if plan.order == "drawn":
+            orders = "; ".join(", ".join(group.conditions[at] for at in order) for order in orders_of(plan, group))
+            lines.append(f"  The order of each participant is drawn by \"study freeze\", and not printed before it is due; it is one of: {orders}.")
+        for name in group.participants if plan.order != "drawn" else ():
             shown = "; ".join(f"{condition} in {', '.join(map(str, worlds))}" for condition, worlds in order_of(plan, name))
             lines.append(f"  {name}: {' and '.join(f'{minutes:.0f}' for minutes in minutes_of(plan, name))} min. {shown}.")
-    lines += ["", f"What {plan.participants[0]} does:"]
+    lines += ["", f"What {'a participant may do' if plan.order == 'drawn' else f'{plan.participants[0]} does'}:"]
     for step in steps_of(plan, plan.participants[0]):
         lines.append(f"  {step.name}: {step}" + (f", {step.world}" if step.world else "") + (f", about {step.minutes:g} min" if step.minutes else ""))
     lines += ["", *balance(plan)]
     hours = sum(sum(minutes_of(plan, name)) for name in plan.participants) / 60
     lines.append(f"All together {hours:.1f} hours.")
+    return lines
+
+
+def conditions(plan):
+    lines = []
+    for condition in plan.conditions:
+        switched = [f"{'no ' if not getattr(condition, name) else ''}{name}" for name in ("touch", "speech", "sounds", "picture")]
+        lines.append(f"Condition {condition.name}: {', '.join(switched)}, profile {condition.profile}"
+                     + "".join(f", {name} {value}" for name, value in condition.parameters) + ".")
     return lines
 
 
@@ -36,12 +44,12 @@ def broken_off(plan):
 
 def balance(plan):
     """A sentence a group: whether as many take part as its orders need."""
-    from .design import williams
     lines = []
+    words = {"williams": "balanced for order and first-order carry-over", "listed": "in the order of the plan, alike for all",
+             "drawn": "balanced for order and first-order carry-over, and allotted by a drawn seed in blocks of as many participants"}[plan.order]
     for group in plan.groups:
-        orders = len(williams(len(group.conditions))) if plan.order == "williams" else 1
+        orders = len(orders_of(plan, group))
         left = len(group.participants) % orders
-        words = "balanced for order and first-order carry-over" if plan.order == "williams" else "in the order of the plan, alike for all"
         lines.append(f"Group {group.name}: {_count(orders, 'order')}, {words}." if not left else
                      f"Group {group.name}: {orders} orders and {len(group.participants)} participants; balanced would be {len(group.participants) + orders - left}.")
     return lines
@@ -60,7 +68,8 @@ def status(study, progress):
         trials = [step for step in person.steps if step.kind == "trial"]
         driven = sum(any(attempt.counts for attempt in person.of(step)) for step in trials)
         step = progress.next(person)
-        what = f"next is {step.name}, {step}" if step else why_nothing(progress, person)[:-1]
+        concealed = plan.order == "drawn" and not person.begun
+        what = f"next is {step.name}{'' if concealed else f', {step}'}" if step else why_nothing(progress, person)[:-1]
         lines.append(f"{person.name}: {driven} of {len(trials)} trials; {'has not begun; ' if not person.begun else ''}{what}.")
         for attempt in person.attempts:
             if attempt.dropped_out:

@@ -110,6 +110,7 @@ class Question:
     first: str
     second: str
     trials: str = ""  # "reached": of a measure that is defined for these alone, and the plan says so
+    within: float = 0.0  # above 0: the two are equivalent if they differ by less; in the unit of the measure
 
 
 @dataclass(frozen=True)
@@ -132,13 +133,16 @@ class Plan:
     calibrate: bool
     lsl: bool
     consent: object  # a Questionnaire or None
-    after_condition: tuple  # of Questionnaires
+    at_begin: tuple  # of Questionnaires
+    after_condition: tuple
     at_end: tuple
     primary: Question
     secondary: tuple
+    exposure: str  # what counts are divided by: a key of measures.EXPOSURES
     exclusions: tuple
     stop_after: int  # participants who have completed; 0: all
     minutes: dict = field(default_factory=dict, compare=False)
+    seed: str = field(default="", repr=False, compare=False)  # of an order that is drawn; the study keeps it, apart from the plan
 
     def condition(self, name):
         return next(condition for condition in self.conditions if condition.name == name)
@@ -168,7 +172,7 @@ class Plan:
     @property
     def asked(self):
         """Questionnaires whose answers are told in the report."""
-        return (*([self.probes.asks] if self.probes else []), *self.after_condition, *self.at_end)
+        return (*self.at_begin, *([self.probes.asks] if self.probes else []), *self.after_condition, *self.at_end)
 
     def world_file(self, world):
         """The file of a world that is no name; None for a name."""
@@ -179,9 +183,15 @@ class Plan:
         values = _without_places(json.loads(json.dumps(asdict(self))))
         if not self.probes:  # so that plans without keep their hash
             del values["probes"]
+        del values["seed"]
+        if self.exposure == "trial":
+            del values["exposure"]
+        if not self.at_begin:
+            del values["at_begin"]
         for question in (values["primary"], *values["secondary"]):
-            if not question["trials"]:
-                del question["trials"]
+            for key in ("trials", "within"):
+                if not question[key]:
+                    del question[key]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
         return dict(values, world_files={name: hashlib.sha256(checked.read(file, LARGEST_WORLD)).hexdigest() for name, file in files.items()})
 
@@ -191,7 +201,7 @@ class Plan:
 
 def _without_places(value):
     if isinstance(value, dict):
-        return {key: _without_places(below) for key, below in value.items() if key != "file"}
+        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) != ("scope", "")}
     return [_without_places(below) for below in value] if isinstance(value, list) else value
 
 

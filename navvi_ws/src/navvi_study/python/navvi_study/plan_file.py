@@ -26,15 +26,16 @@ def load(path):
         operator=root.take("operator", one_of("auto", "pad", "keyboard", "simulated"), "auto"),
         learning=root.take("learning", one_of("reset", "frozen", "kept"), "reset"),
         limit=root.take("limit", number(1, 86400)), sessions=root.take("sessions", whole(1, 20), 1),
-        order=root.take("order", one_of("williams", "listed"), "williams"),
+        order=root.take("order", one_of("williams", "drawn", "listed"), "williams"),
         groups=tuple(_group(name, part, conditions) for name, part in root.sections("groups")),
         conditions=conditions, sets=sets, reserve=reserve,
         practice=_practice(root.section("practice"), folder), probes=_probes(root.section("probes"), folder), pause=_pause(root.section("break")),
         calibrate=root.take("calibrate", flag, False), lsl=root.take("lsl", flag, False),
         consent=questionnaire.find(root.take("consent", text), folder) if "consent" in root else None,
-        after_condition=_questionnaires(folder, questions, "after_condition"), at_end=_questionnaires(folder, questions, "at_end"),
+        at_begin=_questionnaires(folder, questions, "at_begin"), after_condition=_questionnaires(folder, questions, "after_condition"), at_end=_questionnaires(folder, questions, "at_end"),
         primary=_question(outcomes.section("primary", required=True), conditions),
         secondary=tuple(_question(part, conditions) for part in outcomes.items("secondary", [])),
+        exposure=outcomes.take("exposure", one_of(*measures.EXPOSURES), "trial"),
         exclusions=tuple(_rule(part) for part in root.items("exclusions", [])),
         stop_after=stop.take("completed", whole(1, 10000), 0),
         minutes=_minutes(root.section("minutes")))
@@ -137,8 +138,9 @@ def _question(part, conditions):
         whole = ", ".join(name for name, one in measures.MEASURES.items() if one.of != measures.REACHED)
         raise part.error("measure", f"is {measure}, which is defined for {defined} alone; allowed are \"trials: reached\" beside it, by which "
                          f"the plan leaves the others out, and the measures {whole}")
+    within = part.take("equivalent_within", number(1e-6, 1e6), 0.0)
     part.done()
-    return Question(measure, *pair, trials)
+    return Question(measure, *pair, trials, within)
 
 
 def _questionnaires(folder, part, key):
@@ -184,9 +186,14 @@ def _check(root, plan):
             same = seen.setdefault(tuple(sorted(plan.condition(name).arguments().items())), name)
             if same != name:
                 raise root.error("conditions", f"has {same} and {name}, which are alike; allowed are conditions that differ")
-    for key, asked in (("consent", [plan.consent] if plan.consent else []), ("questionnaires", [*plan.after_condition, *plan.at_end])):
+    for key, asked in (("consent", [plan.consent] if plan.consent else []), ("questionnaires", [*plan.at_begin, *plan.after_condition, *plan.at_end])):
         if any(item.probes for one in asked for item in one.items):
             raise root.error(key, "asks about a trial that stopped; allowed are such items below the plan's key \"probes\"")
+    agreed = [item.name for item in plan.consent.items if "yes" in item.choices] if plan.consent else []
+    for one in plan.asked:
+        if one.scope and one.scope not in agreed:
+            raise root.error("questionnaires", f"has {one.name}, which needs \"yes\" to the item {one.scope} of the consent; the consent's items with a yes are: "
+                             + (", ".join(agreed) or "none"))
     for question in (plan.primary, *plan.secondary):
         if not any({question.first, question.second} <= set(group.conditions) for group in plan.groups):
             raise root.error("outcomes", f"compares {question.first} and {question.second}, which no group has both; allowed are two conditions of a group")

@@ -97,6 +97,13 @@ class Progress:
     def complete(self, person):
         return not person.withdrawn and not person.excluded and all(self.finished(person, step) for step in person.steps)
 
+    @property
+    def over(self):
+        """Whether nobody is left who could do anything."""
+        people = self.people.values()
+        stopped = self.plan.stop_after and sum(map(self.complete, people)) >= self.plan.stop_after
+        return not any(self.next(person) for person in people if person.begun or not stopped)
+
     def missing(self, person):
         """Trials that no world is left for, or that nothing shall replace."""
         return [step for step in person.steps

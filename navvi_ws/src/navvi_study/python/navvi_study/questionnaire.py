@@ -14,6 +14,7 @@ from .journal import rows_of
 SHIPPED = [Path(__file__).resolve().parents[2] / "studies" / "questionnaires"]
 LONGEST = 80  # bytes of a sentence that the voice speaks
 DECLINED = "declined"  # rather not say
+PRORATED = 5  # items, from which on a mean may leave one out
 
 
 @dataclass(frozen=True)
@@ -54,20 +55,25 @@ class Questionnaire:
     items: tuple
     score: str  # none, mean, sus or pointing
     same_as: str = ""  # the questionnaire that it is in another language
+    scope: str = ""  # the item of the consent without whose "yes" it is not asked
 
     @property
     def measured(self):
         """Under which name its score is compared."""
         return self.same_as or self.name
 
+    def prorated(self, answers):
+        """Whether the score is the mean of all items but one, which was declined; of at least PRORATED items."""
+        return self.score == "mean" and len(self.items) >= PRORATED and list(answers.values()).count(DECLINED) == 1
+
     def scored(self, answers, errors):
-        """\\param answers  by item's name, as text. None where one is missing or declined.
+        """\\param answers  by item's name, as text. None where one is missing or declined; a mean leaves one declined item out (prorated).
         \\param errors  of pointing, by item's name, as text"""
         if self.score == "pointing":
             known = [abs(float(error)) for error in errors.values() if error not in ("", "n/a")]
             return sum(known) / len(known) if known else None
         try:
-            numbers = [float(answers[item.name]) for item in self.items]
+            numbers = [float(answers[item.name]) for item in self.items if not (self.prorated(answers) and answers[item.name] == DECLINED)]
         except (KeyError, ValueError):
             return None
         if self.score == "mean":
@@ -90,7 +96,7 @@ def load(path):
     root = checked.load(path)
     items = tuple(_item(part) for part in root.items("items"))
     one = Questionnaire(Path(path).stem, str(path), root.take("title", text), root.take("intro", text, ""), items,
-                        root.take("score", one_of("none", "mean", "sus", "pointing"), "none"), root.take("same_as", code, ""))
+                        root.take("score", one_of("none", "mean", "sus", "pointing"), "none"), root.take("same_as", code, ""), root.take("scope", code, ""))
     root.done()
     names = [item.name for item in items]
     if len(set(names)) < len(names):

@@ -1,15 +1,16 @@
 """The study's report: one HTML file that needs nothing else, for eyes and for screen readers."""
 import base64
 import collections
+import math
 import statistics
 from pathlib import Path
 
 import jinja2
 
-from . import figures, table, ways
-from .analysis import RESAMPLES, Analysis
-from .measures import MEASURES, REACHED, number
-from .overview import question, why_nothing
+from . import figures, overview, preregistration, table, ways
+from .analysis import Analysis
+from .measures import MEASURES, REACHED, RESAMPLES, number
+from .session import why_nothing
 from .questionnaire import DECLINED
 from .study import write_safely
 
@@ -25,19 +26,30 @@ def write(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
 
 def page(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
     """\\param picture  the SVG of a world and seed with driven ways; empty where it cannot be drawn"""
-    analysis = Analysis(study, progress)
-    command = f"./navvi study {'rehearse' if rehearsed else 'report'} {Path(progress.plan.file).name}"
+    analysis, plan = Analysis(study, progress), progress.plan
+    command = f"./navvi study {'rehearse' if rehearsed else 'report'} {Path(plan.file).name}"
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
     environment.tests["number_like"] = lambda cell: number(str(cell).split(" ")[0]) is not None
+    environment.globals["filled"] = filled
     primary, secondary = analysis.confirmatory()
     found = ways.records(study, progress)
+    asked = [name for name in analysis.asked() if not analysis.alike(name)]
+    parts = {name: measure_part(analysis, name, command) for name in asked}
+    of_outcomes = [primary.measure, *[one.measure for one in secondary]]
     return environment.get_template("report.html.j2").render(
-        plan=progress.plan, rehearsed=rehearsed, opening=opening(progress), flow=flow(progress), people=people(progress), trials=trials(progress),
-        excluded=excluded(progress), resamples=RESAMPLES, primary=contrast_row(primary), secondary=list(map(contrast_row, secondary)),
-        figures=[measure_part(analysis, name, command) for name in analysis.asked()], questionnaires=answered(study, progress),
-        maps=maps(found, progress.plan, picture, command), lines=time_lines(found, progress.plan, command),
-        exploratory=list(map(contrast_row, analysis.exploratory())), quality=quality(study, progress),
+        plan=plan, rehearsed=rehearsed, opening=opening(progress), who=who(progress, primary), flow=flow(progress, primary), people=people(progress),
+        trials=trials(progress), besides=besides(progress), excluded=excluded(progress), resamples=RESAMPLES,
+        primary=answer(analysis, primary, False), secondary=[answer(analysis, one, True) for one in secondary], parts=parts,
+        outcomes=of_outcomes, conditions=overview.conditions(plan), models=preregistration.MODELS.values(), alike=[alike(analysis, name) for name in analysis.asked() if name not in (*asked, *of_outcomes)],
+        questionnaires=answered(study, progress), maps=maps(found, plan, picture, command), cues=cues(found, plan),
+        exploratory=[contrast_row(analysis, one) for one in analysis.exploratory()], quality=quality(study, progress),
         changes=[f"{row['utc']}, {row['reason']}: {change}" for row in progress.freezes for change in row["changes"]], command=command)
+
+
+def filled(head, rows):
+    """Head and rows without the columns in which no row has a value; the first stays."""
+    kept = [at for at in range(len(head)) if at == 0 or any(row[at] not in ("n/a", "") for row in rows)]
+    return [[row[at] for at in kept] for row in (head, *rows)]
 
 
 def opening(progress):
@@ -45,17 +57,38 @@ def opening(progress):
     if not frozen:
         return "The plan is not frozen: nothing here is confirmatory."
     versions = ", ".join(dict.fromkeys(row["version"] for row in progress.freezes))
-    return (f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}. "
-            f"Primary outcome: {question(progress.plan.primary)}.")
+    drawn = ""
+    if progress.plan.order == "drawn":
+        drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 is in the journal since then." if progress.over else
+                 " Orders are drawn by a seed that is printed here once nobody is left to begin.")
+    return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}"
 
 
-def flow(progress):
+FLOW = {
+    "planned": lambda progress, person: True,
+    "enrolled": lambda progress, person: person.begun and (person.attempts or not person.refused),
+    "completed": lambda progress, person: progress.complete(person),
+    "withdrawn": lambda progress, person: bool(person.withdrawn),
+    "without consent": lambda progress, person: person.refused,
+    "excluded": lambda progress, person: bool(person.excluded),
+}
+
+
+def flow(progress, primary):
+    """A row a group, and one for all: how many of each state of FLOW, and how many are analysed in the primary outcome."""
+    analysed = set(() if primary.differences is None else primary.differences.index)
     rows = []
     for group in progress.plan.groups:
         members = [progress.people[name] for name in group.participants]
-        rows.append([group.name, len(members), sum(one.begun for one in members), sum(progress.complete(one) for one in members),
-                     sum(bool(one.withdrawn) for one in members), sum(one.refused for one in members), sum(bool(one.excluded) for one in members)])
-    return rows + [["all", *map(sum, zip(*[row[1:] for row in rows]))]]
+        rows.append([group.name, *[sum(bool(state(progress, one)) for one in members) for state in FLOW.values()], len(analysed & set(group.participants))])
+    return rows if len(rows) == 1 else rows + [["all", *map(sum, zip(*[row[1:] for row in rows]))]]
+
+
+def who(progress, primary):
+    """The flow in a sentence."""
+    count = dict(zip([*FLOW, "analysed"], flow(progress, primary)[-1][1:]))
+    parts = [f"{count[state]} {state}" for state in count if count[state] or state in ("enrolled", "excluded", "analysed")]
+    return f"Participants: {', '.join(parts)} in the primary outcome."
 
 
 def people(progress):
@@ -64,16 +97,27 @@ def people(progress):
 
 
 def trials(progress):
-    kinds = {(person.name, step.name): step.kind for person in progress.people.values() for step in person.steps}
-    driven = [(person, attempt) for person in progress.people.values() for attempt in person.attempts if attempt.trial]
-    practice, probes = (sum(kinds[person.name, attempt.step] == kind for person, attempt in driven) for kind in ("practice", "probe"))
-    counted = sum(attempt.counts and not person.excluded and kinds[person.name, attempt.step] == "trial" for person, attempt in driven)
-    missing = sum(len(progress.missing(person)) for person in progress.people.values())
-    dropped = sum(attempt.dropped_out and not person.excluded and kinds[person.name, attempt.step] == "trial" for person, attempt in driven)
-    rows = [["driven", len(driven)], ["practice", practice], ["probes", probes], ["counted", counted], ["drop-outs", dropped],
-            ["excluded", len(driven) - practice - probes - counted - dropped], ["without replacement", missing]]
-    results = collections.Counter(attempt.result for person, attempt in driven if attempt.counts and kinds[person.name, attempt.step] == "trial")
-    return rows + [[f"counted, {result}", count] for result, count in sorted(results.items())]
+    """A row a condition: what came of its trials."""
+    rows = {condition.name: [0] * 6 for condition in progress.plan.conditions}
+    for person, step, attempt in driven(progress, "trial"):
+        kind = 4 if person.excluded else 3 if attempt.dropped_out else 4 if not attempt.counts else 1 if attempt.result == "reached" else 2
+        for at in (0, kind):
+            rows[step.condition][at] += 1
+    for person in progress.people.values():
+        for step in progress.missing(person):
+            rows[step.condition][5] += 1
+    return [[name, *counts] for name, counts in rows.items()]
+
+
+def driven(progress, kind):
+    """(person, step, attempt) of each trial of that kind of step, of those who have not withdrawn their data."""
+    return [(person, step, attempt) for person in progress.people.values() if person.withdrawn != "delete"
+            for step in person.steps if step.kind == kind for attempt in person.of(step) if attempt.trial]
+
+
+def besides(progress):
+    counts = [(len(driven(progress, kind)), words) for kind, words in (("practice", "of practice"), ("probe", "with a probe"))]
+    return ", ".join(f"{count} {words}" for count, words in counts if count)
 
 
 def excluded(progress):
@@ -96,35 +140,91 @@ def with_interval(value, low, high):
 
 
 def probability(p):
-    return "n/a" if p is None else "< 0.001" if p < 0.001 else f"{p:.3f}"
+    return "< 0.001" if p < 0.001 else f"= {p:.3f}"
 
 
-def contrast_row(one):
-    effect = f"{one.effect} {with_interval(one.estimate, one.estimate_low, one.estimate_high)}" if one.estimate is not None else "n/a"
+def answer(analysis, one, holm):
+    """A confirmatory outcome in words."""
+    told = {"measure": one.measure, "label": MEASURES[one.measure].label}
+    if one.participants and analysis.alike(one.measure):
+        return {**told, "sentence": alike(analysis, one.measure), "test": "", "note": ""}
+    return {**told, "sentence": sentence(analysis, one), "test": tested(one, holm), "note": one.note}
+
+
+def sentence(analysis, one):
+    """The difference and its interval, without a sign: "participants took 38 s less than in words [29, 46]; less in 20 of 20 pairs"."""
+    measure, scale = MEASURES[one.measure], 100 if MEASURES[one.measure].kind == "share" else 1
+    if one.difference is None:
+        return f"{measure.label}, {compared(one)}: {one.note}."
+    if abs(one.difference) < 1e-9:
+        return f"{measure.label}: {one.second} and {one.first} have the same mean over {one.participants} participants."
+
+    def size(value):
+        return f"{scale * abs(value):.{digits}f}"
+    # Two digits that matter, of the difference or of a tenth of its interval's half width; the interval has the same decimals.
+    widest = abs(one.difference) if one.low is None else max(abs(one.difference), (one.high - one.low) / 20)
+    digits = max(0, 1 - math.floor(math.log10(scale * widest)))
+    sign = 1 if one.difference > 0 else -1
+    more = measure.more[sign > 0]
+    told = measure.sentence.format(amount=size(one.difference), more=more, unit=analysis.unit(one.measure))
+    interval = ""
+    if one.low is not None and one.low * one.high >= 0:
+        interval = " [{}, {}]".format(*map(size, sorted((one.low, one.high), key=abs)))
+    elif one.low is not None:
+        near, far = (one.low, one.high) if sign > 0 else (one.high, one.low)
+        interval = f" [from {size(near)} {measure.more[int(near > 0)]} to {size(far)} {more}]"
+    tied = int((one.differences == 0).sum())
+    return (f"In condition {one.second}, {told} than in {one.first}{interval}; {more} in {one.agreeing} of {one.participants} pairs"
+            + (f", alike in {tied}." if tied else "."))
+
+
+def tested(one, holm):
+    """Model, effect and p; empty where nothing was tested."""
+    if one.p is None:
+        return ""
+    words = one.model[0].upper() + one.model[1:]
+    if one.estimate is not None:
+        words += f": {effect(one)}"
+    words += f"; p {probability(one.p)}" + (f", after Holm's correction p {probability(one.corrected)}" if holm else "")
+    if one.within:
+        words += f". The two are {'' if one.corrected < 0.05 else 'not shown to be '}equivalent within {shown(one.within)}, the plan's smallest effect of interest"
+    return words + "."
+
+
+def effect(one):
+    if one.estimate is None:
+        return "n/a"
+    return f"{one.effect} {shown(one.estimate)} ({'90 % interval ' if one.within else ''}{shown(one.estimate_low)} to {shown(one.estimate_high)})"
+
+
+def contrast_row(analysis, one):
     measure = MEASURES[one.measure]
-    return [measure.label + (f", of {measure.of}" if measure.of == REACHED else ""), compared(one), one.participants, with_interval(one.difference, one.low, one.high),
-            one.model or "n/a", effect, probability(one.p), probability(one.corrected), one.note]
+    return [f"{measure.label}, {analysis.unit(one.measure)}" + (f", of {measure.of}" if measure.of == REACHED else ""), compared(one), one.participants,
+            with_interval(one.difference, one.low, one.high), effect(one), "n/a" if one.p is None else probability(one.p).removeprefix("= "),
+            "n/a" if one.corrected is None else probability(one.corrected).removeprefix("= ")]
 
 
 def compared(one):
     return f"{one.second} minus {one.first}"
 
 
+def alike(analysis, name):
+    values = analysis.values(name)["value"]
+    return f"{MEASURES[name].label}: {shown(values.iloc[0])} in each of {len(values)} {'questionnaires' if MEASURES[name].questionnaire else 'trials'}."
+
+
 def measure_part(analysis, name, command):
     """What the template shows of a measure."""
     measure, rows = MEASURES[name], analysis.by_condition(name)
-    first = [group.conditions[0] for group in analysis.plan.groups]
-    pairs = [pair for pair in analysis.pairs(name) if set(first) & set(pair)]
-    contrasts = [one for one in (analysis.contrast(name, *pair) for pair in pairs) if one.participants]
-    censored = measure.kind == "time"
+    censored, left_out = measure.kind == "time", analysis.prorated(name)
     return {
-        "name": name, "label": measure.label, "unit": f"{measure.unit}, of {measure.of}", "censored": censored, "command": f"{command} --only {name}",
+        "name": name, "label": measure.label, "unit": f"{analysis.unit(name)}, of {measure.of}", "censored": censored, "command": f"{command} --only {name}",
         "svg": base64.b64encode(figures.by_condition(analysis, name).encode()).decode(),
-        "alt": alt(measure, rows), "caption": "A dot is a participant's mean, a line joins one participant's, a square is the mean with its 95 % interval"
+        "alt": alt(analysis, name, rows), "caption": "A dot is a participant's mean, a line joins one participant's, a square is the mean with its 95 % interval"
         + (", times that were not reached at their limit." if censored else "."),
+        "prorated": f"{left_out} of {len(analysis.values(name))} scores are prorated: one item was declined, and the mean is that of the others." if left_out else "",
         "rows": [[f"{row['group']}, {row['condition']}", row["participants"], row["trials"], with_interval(row["mean"], row["low"], row["high"]),
-                  shown(row["sd"]), shown(row["median"]), shown(row["least"]), shown(row["most"])] + ([row["unfinished"]] if censored else []) for row in rows],
-        "pairs": [[compared(one), one.participants, with_interval(one.difference, one.low, one.high)] for one in contrasts]}
+                  shown(row["sd"]), shown(row["median"])] + ([row["unfinished"]] if censored else []) for row in rows]}
 
 
 def maps(found, plan, picture, command):
@@ -138,26 +238,22 @@ def maps(found, plan, picture, command):
         words = "; ".join(f"{row[0]}: {row[1]} ways, {row[2]} m on average" for row in rows)
         world = Path(world).name
         parts.append({"world": f"{world} {seed}", "svg": base64.b64encode(drawn).decode(), "rows": rows, "command": command,
+                      "caption": "Ways that were driven, a point a second; conditions in the order of the table are full, dashed, dotted and so on, each in its colour.",
                       "alt": f"The map of world {world}, seed {seed}, with the ways that were driven in it. {words}. The table below has their lengths."})
     return parts
 
 
-def time_lines(found, plan, command):
-    """One figure, and a table of cues a minute; None where no trial has a journal."""
-    cues = ways.cues_by_condition(found, [condition.name for condition in plan.conditions])
-    if not cues:
-        return None
-    rows = [[condition, len(trials), *[shown(sum(one == modality for trial in trials for _, one in trial) / minutes if minutes else None)
-                                       for modality in ways.MODALITIES]] for condition, (trials, minutes) in cues.items()]
-    words = ". ".join(f"{row[0]}: {row[2]} sentences, {row[3]} sounds and {row[4]} felt patterns a minute" for row in rows)
-    return {"svg": base64.b64encode(figures.time_lines(cues).encode()).decode(), "rows": rows, "command": command,
-            "alt": f"When something was said, played or felt, a line a trial, by condition. {words}. The table below has the same."}
+def cues(found, plan):
+    """Rows of the table of cues a minute; none where no trial has a journal."""
+    return [[condition, trials, *[shown(count / minutes if minutes else None) for count in counts]]
+            for condition, (trials, minutes, counts) in ways.cues_by_condition(found, [condition.name for condition in plan.conditions]).items()]
 
 
-def alt(measure, rows):
+def alt(analysis, name, rows):
     """The plot in words."""
     parts = [f"{row['group']}, {row['condition']}: {with_interval(row['mean'], row['low'], row['high'])}" for row in rows]
-    return f"{measure.label}, {measure.unit}, mean by group and condition, in brackets its 95 % interval. " + ". ".join(parts) + ". The table below has all values."
+    return (f"{MEASURES[name].label}, {analysis.unit(name)}, mean by group and condition, in brackets its 95 % interval. " + ". ".join(parts)
+            + ". The table below has the same.")
 
 
 def answered(study, progress):
@@ -168,10 +264,11 @@ def answered(study, progress):
             given[row["questionnaire"], row["item"], row["condition"]].append(row)
     parts = []
     for asked in progress.plan.asked:
-        conditions = list(dict.fromkeys(condition for name, _, condition in given if name == asked.name))
+        names = [condition.name for condition in progress.plan.conditions] + ["n/a"]
+        conditions = sorted({condition for name, _, condition in given if name == asked.name}, key=names.index)
         if conditions:
             rows = [[item.ask, *[answers_in_words(item, given[asked.name, item.name, condition]) for condition in conditions]] for item in asked.items]
-            parts.append({"title": asked.title, "conditions": [name if name != "n/a" else "all" for name in conditions], "rows": rows})
+            parts.append({"title": asked.title, "conditions": [name if name != "n/a" else "Answer" for name in conditions], "rows": rows})
     return parts
 
 

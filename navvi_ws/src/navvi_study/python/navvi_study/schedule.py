@@ -1,7 +1,7 @@
 """What each participant does, in order: a pure function of the plan."""
 from dataclasses import dataclass
 
-from .design import drawn, set_of, williams
+from .design import allotted, drawn, set_of, williams
 
 # What a step is, and the column `phase` of its trial.
 KINDS = ("consent", "calibrate", "practice", "trial", "probe", "questionnaire", "break", "session_end")
@@ -30,9 +30,15 @@ class Step:
 def order_of(plan, participant):
     """The conditions of the participant in their order, and the set of worlds of each."""
     group = plan.group_of(participant)
-    index, size = group.participants.index(participant), len(group.conditions)
-    orders = williams(size) if plan.order == "williams" else [list(range(size))]
+    index, orders = group.participants.index(participant), orders_of(plan, group)
+    if plan.order == "drawn" and plan.seed:
+        index = allotted(plan.seed, group.name, index, len(orders))
     return [(group.conditions[at], plan.sets[set_of(index, at, len(plan.sets), len(orders))]) for at in orders[index % len(orders)]]
+
+
+def orders_of(plan, group):
+    size = len(group.conditions)
+    return [list(range(size))] if plan.order == "listed" else williams(size)
 
 
 def steps_of(plan, participant):
@@ -45,6 +51,8 @@ def steps_of(plan, participant):
             steps.append(Step(f"s{session}-{name}", kind, session, minutes=more.pop("minutes", _minutes(plan, kind)), **more))
         if plan.consent:
             add("consent", "consent", asks=plan.consent)
+        for asks in plan.at_begin if session == 1 else ():
+            add(asks.name, "questionnaire", asks=asks)
         if plan.calibrate and session == 1:
             add("calibrate", "calibrate")
         if before == "session" or (before == "study" and session == 1):

@@ -114,6 +114,10 @@ class Session:
         return "person" if row.get("reason") == "ended_by_person" else "experimenter" if ended else ""
 
     def _questionnaire(self, progress, person, step, lock):
+        if step.asks.scope and not self.study.agreed(person.name, step.asks.scope):
+            self.say(f"navvi: {person.name}: {step} is left out; the consent has no yes to \"{step.asks.scope}\".")
+            self._done(person.name, step, asked=False)
+            return True
         if self._ask(person.name, step, lock) is None:
             return False
         self._done(person.name, step)

@@ -1,8 +1,11 @@
 """A study on the disk: its plan, its journal, and the folders of its participants."""
 import contextlib
+import dataclasses
 import fcntl
+import hashlib
 import json
 import os
+import secrets
 import shutil
 import signal
 import time
@@ -22,8 +25,9 @@ FIELDS = {
 
 class Study:
     def __init__(self, plan, folder=None):
-        self.plan = plan
         self.folder = Path(folder or plan.folder)
+        self.seed_file = self.folder / "allocation.seed"
+        self.plan = dataclasses.replace(plan, seed=b"".join(lines_of(self.seed_file)).decode(errors="replace").strip())
         self.journal = Journal(self.folder / "journal.jsonl")
         self.finish_erasing()
 
@@ -32,7 +36,14 @@ class Study:
         return cls(plan_file.load(file))
 
     def progress(self):
-        return Progress(self.plan, self.journal.rows() if self.journal.path.exists() else [])
+        found = Progress(self.plan, self.journal.rows() if self.journal.path.exists() else [])
+        if found.freezes and found.freezes[-1].get("allocation", self._allocation()) != self._allocation():
+            raise StudyError(f"{self.seed_file} is missing or changed since the plan was frozen, and nobody's order is known without it; restore it from a copy.")
+        return found
+
+    def _allocation(self):
+        """What the journal keeps of the seed, by which it can be verified once it is printed."""
+        return hashlib.sha256(self.plan.seed.encode()).hexdigest()
 
     def home(self, participant):
         """All that is kept of a participant, besides the journal's rows with the code alone."""
@@ -68,8 +79,12 @@ class Study:
             raise StudyError("the plan was frozen before; a change needs --reason. It is:\n  " + "\n  ".join(changes))
         number = len(self.progress().freezes) + 1
         file = self.folder / ("frozen.json" if number == 1 else f"frozen-{number}.json")
+        if self.plan.order == "drawn" and not self.plan.seed:
+            self.plan = dataclasses.replace(self.plan, seed=secrets.token_hex(16))
+            write_safely(self.seed_file, self.plan.seed + "\n")
         write_safely(file, json.dumps({"hash": self.plan.hash(), "plan": self.plan.values()}, indent=1, sort_keys=True) + "\n")
-        self.journal.append("freeze", plan=self.plan.hash(), version=version, reason=reason or "", changes=changes or [])
+        self.journal.append("freeze", plan=self.plan.hash(), version=version, reason=reason or "", changes=changes or [],
+                            **({"allocation": self._allocation()} if self.plan.order == "drawn" else {}))
         return changes
 
     def require_frozen(self):
@@ -140,6 +155,11 @@ class Study:
 
     def answers(self, participant):
         return self.lines(participant, "answers")[0]
+
+    def agreed(self, participant, item):
+        """Whether the last answer to the item of the consent is yes."""
+        given = [row["answer"] for row in self.answers(participant) if self.plan.consent and (row["questionnaire"], row["item"]) == (self.plan.consent.name, item)]
+        return given[-1:] == ["yes"]
 
     def note(self, participant, attempt, row):
         append_line(self.home(participant) / "notes.jsonl", {"step": attempt.step, "attempt": attempt.number, **row})

@@ -48,7 +48,7 @@ def trials(study, progress):
     rows = []
     for person in progress.people.values():
         steps = {step.name: step for step in person.steps}
-        notes = study.notes(person.name)
+        notes, described_by = study.notes(person.name), about(study, person)
         for attempt in person.attempts:
             if not attempt.trial or person.withdrawn == "delete":
                 continue
@@ -58,12 +58,18 @@ def trials(study, progress):
             row = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": step.session, "order": step.order,
                    "condition": step.condition, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number,
                    "counts": _counts(person, step, attempt),
-                   "excluded": person.excluded or attempt.excluded or "n/a", "excluded_by": attempt.excluded_by or "n/a",
+                   **described_by, "excluded": person.excluded or attempt.excluded or "n/a", "excluded_by": attempt.excluded_by or "n/a",
                    "replaces": attempt.replaces or "n/a", "marks": len([note for note in mine if note["type"] in ("mark", "note")]),
                    "interventions": len([note for note in mine if note["type"] == "intervention"])}
             row.update({name: cell for name, cell in summary.items() if name not in NOT_OURS})
             rows.append({name: str(cell) for name, cell in row.items()})
     return rows
+
+
+def about(study, person):
+    """What the person answered at the begin, by column: person_ITEM, "n/a" where it was not asked."""
+    given = {(row["questionnaire"], row["item"]): row["answer"] for row in study.answers(person.name)} if study.plan.at_begin else {}
+    return {f"person_{item.name}": given.get((one.name, item.name), "n/a") for one in study.plan.at_begin for item in one.items}
 
 
 def _counts(person, step, attempt):
@@ -124,7 +130,7 @@ def _truth(study, person, row):
 
 
 def scores(study, progress):
-    """Of each questionnaire that was answered as a whole: rows with participant, condition, order, questionnaire and score."""
+    """Of each questionnaire that was answered: rows with participant, condition, order, questionnaire, score and whether that is prorated."""
     given = {}
     for row in answers(study, progress):
         given.setdefault((row["participant"], row["step"]), []).append(row)
@@ -134,17 +140,17 @@ def scores(study, progress):
         first = items[0]
         if first["questionnaire"] not in asked or progress.people[participant].excluded:
             continue
-        score = asked[first["questionnaire"]].scored({row["item"]: row["answer"] for row in items},
-                                                          {row["item"]: row.get("error_deg", "n/a") for row in items})
+        one, answered = asked[first["questionnaire"]], {row["item"]: row["answer"] for row in items}
+        score = one.scored(answered, {row["item"]: row.get("error_deg", "n/a") for row in items})
         rows.append({"participant": participant, "group": first["group"], "condition": first["condition"], "order": first["order"],
-                     "questionnaire": asked[first["questionnaire"]].measured, "score": score})
+                     "questionnaire": one.measured, "score": score, "prorated": score is not None and one.prorated(answered)})
     return rows
 
 
 def write(study, progress, known):
     """\\param known  of figures()
     Returns the files that were written."""
-    files = []
+    files, known = [], known + [{"name": f"person_{item.name}", "meaning": item.ask} for one in study.plan.at_begin for item in one.items]
     for name, rows in (("trials", trials(study, progress)), ("answers", answers(study, progress)), ("events", events(study, progress))):
         columns = list(dict.fromkeys(column for row in rows for column in row)) or list(WHOSE)
         for path, content in ((study.folder / f"{name}.csv", as_csv(columns, rows)), (study.folder / f"{name}.json", described(columns, known))):

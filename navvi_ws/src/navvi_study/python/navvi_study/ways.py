@@ -1,10 +1,9 @@
-"""What the journals show of each trial: ways over the map of their world, and when something was said, played or felt."""
+"""What the journals show of each trial: ways over the map of their world, and how much was said, played and felt."""
 from . import table
 from .record import Record
 
 DASHES = ("solid", (0, (4, 2)), (0, (1, 2)), (0, (6, 2, 1, 2)), (0, (3, 3)), (0, (1, 1)))  # of lines: conditions are told apart without colours, too
 MODALITIES = ("speech", "sound", "rumble")
-MOST_LINES = 12  # trials of a condition in the figure of cues
 
 
 def records(study, progress):
@@ -35,11 +34,11 @@ def length(way):
 
 
 def cues_by_condition(found, conditions):
-    """By condition: the trials' lists of (s, modality), and their minutes."""
+    """By condition: its trials, their minutes, and how many cues each modality had."""
     result = {}
     for condition in conditions:
         mine = [record for row, record in found if row["condition"] == condition]
         if mine:
-            minutes = sum(record.onset(record.rows[-1]) for record in mine) / 60
-            result[condition] = [[(onset, modality) for onset, modality, _, _ in record.cues()] for record in mine], minutes
+            cues = [modality for record in mine for _, modality, _, _ in record.cues()]
+            result[condition] = len(mine), sum(record.onset(record.rows[-1]) for record in mine) / 60, list(map(cues.count, MODALITIES))
     return result

@@ -1,0 +1,71 @@
+"""The frozen plan in words, as a registry asks for it: hypotheses, design, participants, measures, analysis, exclusions."""
+import json
+from types import SimpleNamespace
+
+from . import overview
+from .measures import EXPOSURES, LEAST, MEASURES, RESAMPLES
+from .study import write_safely
+
+MODELS = {
+    "time": "Times: Cox's proportional hazards, stratified by participant, censored at the limit; where no ratio can be estimated, the log-rank test.",
+    "count": "Counts: negative binomial by generalized estimating equations, a participant as cluster, with the errors of Mancl and DeRouen and "
+             "Student's distribution; where nothing was counted in a condition, Wilcoxon's signed ranks.",
+    "share": "Shares: logistic by generalized estimating equations, likewise; where all or none are in a condition, Wilcoxon's signed ranks.",
+    "number": "Scores and ratios: Wilcoxon's signed ranks of each participant's means, with the shift of Hodges and Lehmann.",
+}
+EQUIVALENCE = "Equivalence: two one-sided t tests of the participants' differences (Schuirmann), with their 90 % interval."
+
+
+def write(study):
+    """The page of the plan that was frozen last. Returns the file."""
+    path = study.folder / "preregistration.md"
+    # As attributes, like a Plan's; keys that a freeze leaves out have their default.
+    plan = json.loads(json.dumps({"exposure": "trial", "probes": None, "at_begin": [], **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
+    write_safely(path, "\n".join(page(plan, study.progress().freezes)) + "\n")
+    return path
+
+
+def page(plan, freezes):
+    """Lines of Markdown."""
+    outcomes = [plan.primary, *plan.secondary]
+    kinds = {MEASURES[one.measure].kind for one in outcomes if not getattr(one, "within", 0)}
+    practice, per_trial = plan.practice, EXPOSURES[plan.exposure][0]
+    sections = {
+        "Hypotheses": [
+            f"Primary: {hypothesis(plan.primary)}", *[f"Secondary: {hypothesis(one)}" for one in plan.secondary],
+            "Differences are tested two-sided at 5 %; equivalence by two one-sided tests at 5 %."],
+        "Design": [
+            "Each participant drives in all conditions of the group.", *overview.conditions(plan), *overview.balance(plan),
+            f"Each condition has a set of {len(plan.sets[0])} worlds; sets go round the conditions by a Latin square. A trial ends at the goal or after {plan.limit:g} s.",
+            f"Sessions: {plan.sessions}. Calibration: {'yes' if plan.calibrate else 'no'}. Learning of a person's delay: {plan.learning}.",
+            *([f"Practice before each {practice.before}, until {practice.in_a_row} in a row reach the goal with collisions of at most {practice.collisions}, "
+               f"or {practice.most} were driven."] if practice else [])],
+        "Participants": [
+            *[f"Group {group.name}: {len(group.participants)}, in the conditions {', '.join(group.conditions)}." for group in plan.groups],
+            f"Nobody begins once {plan.stop_after} have completed the study." if plan.stop_after else "The study ends when all have taken part.",
+            f"Consent: {plan.consent.title}." if plan.consent else "The plan asks for no consent."],
+        "Measures": [
+            *dict.fromkeys(f"{MEASURES[one.measure].label}, {per_trial if MEASURES[one.measure].kind == 'count' else MEASURES[one.measure].unit}, "
+                           f"of {MEASURES[one.measure].of}." for one in outcomes),
+            *[f"Questionnaire: {one.title}." for one in (*plan.at_begin, *plan.after_condition, *plan.at_end)],
+            *(["Probes: a trial in each condition that stops unannounced, and questions about it."] if plan.probes else [])],
+        "Analysis": [
+            *[words for kind, words in MODELS.items() if kind in kinds],
+            *([EQUIVALENCE] if any(getattr(one, "within", 0) for one in outcomes) else []),
+            "Models hold the place of the condition in the order, where it varies.",
+            f"Beside each stands the mean of the paired differences with its 95 % interval, a bootstrap of participants ({RESAMPLES} draws).",
+            f"Below {LEAST} participants there is neither interval nor test.",
+            "The primary outcome is not corrected, the secondary ones are by Holm; all else is exploratory, corrected by Benjamini and Hochberg."],
+        "Exclusions": overview.broken_off(plan),
+        "Changes since the plan was frozen first": [f"{row['utc'][:10]}, {row['reason']}: {change}" for row in freezes for change in row["changes"]],
+    }
+    lines = [f"# {plan.title}: pre-registration", "",
+             f"Study {plan.study}; the plan was frozen on {freezes[-1]['utc'][:10]} as {freezes[-1]['plan']}, with NavVI {freezes[-1]['version']}."]
+    for heading, sentences in sections.items():
+        lines += ["", f"## {heading}", "", *[f"- {sentence}" for sentence in sentences]] if sentences else []
+    return lines
+
+
+def hypothesis(one):
+    measure, within = MEASURES[one.measure], getattr(one, "within", 0)
+    return f"{measure.label}: {one.second} and {one.first} {f'are equivalent within {within:g} ({measure.unit})' if within else 'differ'}."
