@@ -4,7 +4,7 @@
 run_packages=(
   netbase rosbash rosout espeak-ng-data libopenal-data iproute2 python3-rosbag python3-roslaunch python3-rosnode
   python3-rosservice python3-rostopic python3-rospy python3-geometry-msgs python3-nav-msgs
-  python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-std-srvs python3-tf2-msgs
+  python3-sensor-msgs python3-std-msgs python3-visualization-msgs python3-diagnostic-msgs python3-move-base-msgs python3-std-srvs python3-tf2-msgs
   python3-yaml
 )
 # Without these a session runs, but without its picture, screen readers in it, drawings, `watch speech:=true` or the Tab key.
