@@ -105,6 +105,9 @@ class SessionJudge {
     input.speaking = time < speaks_until_;
     if (now.asked) input.asked = {*now.asked};
     const Beat out = beat(guide_, input, time);
+    const bool shut = now.gate.state == DriveState::State::stopped;
+    const bool vain = now.stick && now.forward > 0.0 && (shut || guide_.parts().held_unarmed);
+    held_in_vain_ = vain ? held_in_vain_ + kTick : 0.0;
     if (out.pattern) felt.insert(navvi_types::to_string(*out.pattern));
     if (out.pattern) felt_[*out.pattern] = time;
     touched_ = out.pattern.has_value();
@@ -129,6 +132,10 @@ class SessionJudge {
       if (event.stage == CueStage::queued) {
         known_[event.id] = {time, *next++};
         decided_[*event.kind()] = time;
+        const bool way = is_way(family_of(*event.kind())) && !known_[event.id].cue.asked;
+        const bool same = now.guidance.state == last_.guidance.state;
+        if (way && same && std::min({held_in_vain_, alive_, steady_}) > 1.0)
+          complaints.insert("a way while the stick is held in vain");
         continue;
       }
       const Known known = known_.at(event.id);
@@ -224,19 +231,20 @@ class SessionJudge {
     const bool over = now.guidance.is_followed() && alive_ > 0.0;
     const bool moves = std::any_of(now.nearby.begin(), now.nearby.end(),
                                    [](const NearThing& thing) { return thing.moving; });
-    waits_over_ = waits_ && over && released_ == 0 ? waits_over_ + kTick : 0.0;
+    const bool due = over && held_in_vain_ == 0.0 && released_ == 0;
+    waits_over_ = waits_ && due ? waits_over_ + kTick : 0.0;
     waits_alone_ = moves ? 0.0 : std::min(waits_alone_ + kTick, waits_over_);
     longest_wait = std::max(longest_wait, waits_over_);
     longest_wait_alone = std::max(longest_wait_alone, waits_alone_);
     if (moves_on()) owed_ = false;
-    owed_over_ = owed_ && over && released_ == 0 ? owed_over_ + kTick : 0.0;
+    owed_over_ = owed_ && due ? owed_over_ + kTick : 0.0;
     longest_owed = std::max(longest_owed, owed_over_);
   }
 
   /// Whoever is led toward a goal that is not seen yet hears so as soon as nothing else is said.
   void expect_toward() {
     const bool leads = alive_ > 0.0 && now.guidance.state == Guidance::State::following;
-    if (!leads || !now.guidance.ends_short || told_unseen_ || waits_)
+    if (!leads || !now.guidance.ends_short || told_unseen_ || waits_ || held_in_vain_ > 0.0)
       silent_ = 0.0;
     else if (running_ == 0)
       silent_ += kTick;
@@ -332,7 +340,7 @@ class SessionJudge {
     // A word to stop holds first, and one arrival is told once.
     const bool halted = decided(CueKind::obstacle_stop, 9.0) ||
                         (kind != told.end() && kind->second == CueKind::make_room &&
-                         decided(CueKind::blocked, 9.0));
+                         (decided(CueKind::blocked, 9.0) || held_in_vain_ > 0.0));
     const bool excused =
         kind == told.end() || halted || (kind->second == CueKind::arrived && arrived_);
     if (now.guidance.is_followed()) arrived_ = false;
@@ -363,6 +371,7 @@ class SessionJudge {
   double in_vain_ = 0.0;  ///< s
   double silent_ = 0.0;   ///< s, while led untold toward a goal that is not seen yet
   bool told_unseen_ = false;
+  double held_in_vain_ = 0.0;  ///< s, the stick is held and moves nothing
   bool touched_ = false;
   bool says_way_ = false;  ///< unasked, it has begun to since the last look at the order
   bool feels_halt_ = false;

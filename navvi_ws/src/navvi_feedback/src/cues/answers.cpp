@@ -54,7 +54,8 @@ std::optional<Utterance> about(Question question, const Tick& tick, Rounding rou
 
 /// The way, or why there is none. \return nullopt: it may be on its way
 std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const Halt& halt,
-                                       const StateCues& state) {
+                                       const StateCues& state, const HeldStick& held) {
+  if (held.needed()) return Utterance{*held.needed()};
   if (tick.follows && halt.halted()) return halt.words();
   if (auto way = tick.follows ? route.ask(*tick.now.guidance, tick.time) : std::nullopt) {
     way->goes_on = halt.owes();
@@ -75,7 +76,7 @@ bool Answers::tells_way(double time) {
 }
 
 Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
-                           const StateCues& state) {
+                           const StateCues& state, const HeldStick& held) {
   if (tick.asked.menu) {
     Utterance label = *tick.asked.menu;
     label.asked = true;
@@ -89,12 +90,12 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   asked_ = question;
   std::optional<Utterance> answer = about(*question, tick, route.rounding());
   // What stopped the person is gone; to say it again would only put off "go on".
-  if (!answer && tick.follows && halt.ends_soon()) {
+  if (!answer && tick.follows && halt.ends_soon() && !held.needed()) {
     question_ = question;
     for_go_on_ = true;
     return {};
   }
-  if (!answer) answer = about_the_way(tick, route, halt, state);
+  if (!answer) answer = about_the_way(tick, route, halt, state, held);
   if (!answer) return {};
   // An answer is wanted at once, whatever was said just before.
   answer->priority = Priority::message;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cues/halt.hpp"
+#include "cues/held_stick.hpp"
 #include "cues/route_cues.hpp"
 #include "cues/state_cues.hpp"
 #include "cues/tick.hpp"
@@ -18,7 +19,7 @@ class Answers {
   /// \param route  knows the way, and takes note that it was told
   /// \return the answer, if any; first of all the menu's
   [[nodiscard]] Utterances update(const Tick& tick, RouteCues& route, const Halt& halt,
-                                  const StateCues& state);
+                                  const StateCues& state, const HeldStick& held);
   /// That a wait is over, or begins just now, is a better answer than why a person waits: that one
   /// is withdrawn.
   void yield(Utterances& answer);

@@ -58,7 +58,7 @@ std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, d
   add(told, near(tick));
   remind(tick, told);
   const bool stops = halt(told, tick);
-  Utterances answer = answers_.update(tick, route_, halt_, state_);
+  Utterances answer = answers_.update(tick, route_, halt_, state_, held_);
   if (stops) answers_.yield(answer);
   if (!halt_.halted()) halt(answer, tick);
   const Utterances led = way(tick);
@@ -139,6 +139,8 @@ Utterances CuePolicy::way(const Tick& tick) {
   }
   // A wait that is not worth saying is no reason to say the direction again.
   if (!tick.follows && !halt_.halted()) return {};
+  // Where the stick is held in vain, its remedy comes first.
+  if (held_.needed()) return route_.update(tick.now, true, tick.time);
   // What leads all the time is "go on" itself.
   if (lasts(tick.now.lead)) {
     const bool stood = halt_.told() && tick.time - *halt_.told() > kStood;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
+#include <set>
 
 #include "cue_policy_fixture.hpp"
 
@@ -129,6 +131,58 @@ TEST_F(CuePolicyTest, asks_to_release_a_stick_that_is_held_in_vain_and_then_says
   EXPECT_EQ(policy_.order().value().kind, CueKind::release_stick) << "as long as it is held";
   now_.stick_held_unarmed = false;
   EXPECT_EQ(pass(3.0), Texts{"drive straight, 20 meters"});
+}
+
+TEST_F(CuePolicyTest, orders_nothing_but_the_remedy_while_the_stick_is_held_in_vain) {
+  using Hold = std::function<void(bool)>;
+  const auto against = [this](DriveState::State gate) {
+    return [this, gate](bool held) {
+      now_.gate = held ? gate : DriveState::State::running;
+      now_.commanded.linear = held ? 1.0 : 0.0;
+    };
+  };
+  const std::vector<std::pair<Hold, std::string>> holds = {
+      {[this](bool held) { now_.stick_held_unarmed = held; }, "release the keys"},
+      {[this](bool held) { now_.stick_disabled = held; },
+       "hold the drive button, then push the stick"},
+      {against(DriveState::State::waiting), "release the keys"},
+      {against(DriveState::State::stopped), "release the keys"}};
+  now_.devices.keyboard = true;
+  under_way();
+  now_.commanded = {};
+  now_.measured = Velocity{};
+  for (const auto& [hold, remedy] : holds) {
+    hold(true);
+    pass(1.0);
+    std::set<std::string> told;
+    const auto hear = [&](double seconds) {
+      for (const std::string& text : pass(seconds)) told.insert(text);
+    };
+    hear(30.0);
+    asked_.question = Question::way;
+    hear(1.0);
+    ++now_.guidance->reroutes;
+    now_.guidance->waypoint.y() += 5.0;
+    now_.guidance->waypoint_angle = now_.guidance->steer_angle -= 0.8;
+    hear(15.0);
+    EXPECT_EQ(told, std::set<std::string>{remedy});
+    now_.guidance->state = Guidance::State::blocked;
+    pass(5.0);
+    now_.guidance->state = Guidance::State::following;
+    told.clear();
+    hear(15.0);
+    EXPECT_EQ(told, std::set<std::string>{remedy}) << "nor to go on";
+    hold(false);
+    const Texts on = pass(5.0);
+    ASSERT_FALSE(on.empty()) << remedy;
+    EXPECT_EQ(on.front().substr(0, 7), "go on, ");
+    for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
+      policy_.note({{9, stage, last_.kind, on.front()}});
+    now_.commanded.linear = now_.measured->linear = 1.0;
+    pass(5.0);
+    now_.commanded = {};
+    now_.measured = Velocity{};
+  }
 }
 
 TEST_F(CuePolicyTest, asks_only_a_hand_that_rests_to_push) {

@@ -178,7 +178,7 @@ TEST(Phrases, speak_spanish_with_its_letters_its_plurals_and_its_first_hour) {
   Fillings one = everything();
   one.hour = 1;
   one.distance = 1.0;
-  EXPECT_EQ(phrases.say(CueKind::direction, one), "gire hacia la 1, 1 metro");
+  EXPECT_EQ(phrases.say(CueKind::direction, one), "gire hacia la una, 1 metro");
   EXPECT_EQ(phrases.say(CueKind::direction, everything()), "gire hacia las 3, 8 metros");
   EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "estanter\u00eda a su izquierda");
 }

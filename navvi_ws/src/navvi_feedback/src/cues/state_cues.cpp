@@ -74,7 +74,11 @@ Utterances StateCues::update(const Tick& tick, std::optional<double> halted,
                              const Phrasing& phrasing) {
   Utterances told;
   const bool wanted = std::exchange(awaited_, awaited(tick.now).has_value());
-  if (wanted && tick.now.trial == TrialState::State::running) told = {{CueKind::trial_begins}};
+  if (wanted && tick.now.trial == TrialState::State::running) {
+    told = {{CueKind::trial_begins}};
+    told.front().asked = true;  // by the press, which what asked for it is not to delay
+    arrival_said_ = false;
+  }
   if (tick.links.simulator == Link::lost) return told;
   observe(tick);
   // What is said too seldom for now is said a little later.

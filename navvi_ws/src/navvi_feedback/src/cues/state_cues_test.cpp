@@ -19,6 +19,25 @@ TEST_F(StateCuesTest, announces_the_arrival_once) {
   EXPECT_EQ(pass(2.0), Texts{});
 }
 
+TEST_F(StateCuesTest, says_go_at_once_and_not_after_the_words_that_asked_for_the_press) {
+  now_.trial = TrialState::State::ready;
+  now_.guidance->state = Guidance::State::no_goal;
+  EXPECT_EQ(pass(3.0), Texts{"press start to begin"});
+  now_.trial = TrialState::State::running;
+  EXPECT_EQ(pass(0.02), Texts{"go"});
+  EXPECT_TRUE(last_.asked);
+}
+
+TEST_F(StateCuesTest, announces_the_arrival_again_to_who_begins_a_trial_at_its_goal) {
+  under_way();
+  now_.guidance->state = Guidance::State::arrived;
+  pass(3.0);
+  now_.trial = TrialState::State::ready;
+  pass(3.0);
+  now_.trial = TrialState::State::running;
+  EXPECT_EQ(pass(3.0), (Texts{"go", "you have reached the goal"}));
+}
+
 TEST_F(StateCuesTest, says_why_a_goal_was_refused_once_a_goal) {
   under_way();
   now_.guidance->state = Guidance::State::goal_refused;

@@ -92,7 +92,7 @@ TEST(Listener, speaks_spanish) {
   const Listener listener(std::filesystem::path(NAVVI_PHRASES).replace_filename("es.yaml"));
   const auto stop = listener.understand(CueKind::obstacle_stop, "pare, estantería delante");
   EXPECT_EQ(stop.size(), 1U);
-  const auto go_on = listener.understand(CueKind::straight, "libre, vaya recto, 7 metros");
+  const auto go_on = listener.understand(CueKind::straight, "siga, vaya recto, 7 metros");
   ASSERT_EQ(go_on.size(), 1U);
   EXPECT_EQ(go_on[0].asks, Ask::go);
   EXPECT_TRUE(go_on[0].goes_on);

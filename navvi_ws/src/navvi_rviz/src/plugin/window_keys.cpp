@@ -5,6 +5,7 @@
 #include <X11/keysym.h>
 #include <poll.h>
 #include <ros/console.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <bitset>
@@ -19,8 +20,9 @@ using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto kPeriod = 20ms;
-constexpr auto kRescan = 1s;   // children of the window come and go
-constexpr float kSlow = 0.4F;  // of the stick, with Shift
+constexpr auto kRescan = 1s;    // children of the window come and go
+constexpr int kNiceness = -10;  // as feedback_node's
+constexpr float kSlow = 0.4F;   // of the stick, with Shift
 
 /// As feedback_node's own window has them.
 constexpr std::array<KeySym, 16> kButtons = {
@@ -182,6 +184,8 @@ WindowKeys::~WindowKeys() {
 
 void WindowKeys::run(Reader& reader) {
   t_reader = true;
+  // Of this thread alone, where the kernel grants it: the picture keeps all processors busy.
+  setpriority(PRIO_PROCESS, 0, kNiceness);
   bool ours = false;
   const auto tell = [&] {
     const Typed typed = reader.typed();
