@@ -4,6 +4,7 @@ import csv
 import ctypes
 import os
 import pathlib
+import signal
 import subprocess
 import time
 
@@ -246,6 +247,16 @@ def test_keys_typed_into_the_picture_drive_too(keys):
         assert eventually(lambda: keys.menu_steps() == steps + 10, 2)
         keys.tap("Escape")
         assert eventually(lambda: keys.said("menu_closed"), 2)
+    # A picture that stands still altogether has not lost its keys either; but the robot stands.
+    keys.xdotool("keydown", "Up")
+    assert eventually(lambda: keys.command() > 0.8)
+    rviz.send_signal(signal.SIGSTOP)
+    time.sleep(0.6)
+    rviz.send_signal(signal.SIGCONT)
+    assert keys.command() == 0.0
+    time.sleep(1)
+    assert keys.command() == 0.0, "before the key was released"
+    keys.xdotool("keyup", "Up")
     assert all(row["field.kind"] != "keyboard_lost" for row in keys.rows("cues")[cues:])
     time.sleep(1)
 

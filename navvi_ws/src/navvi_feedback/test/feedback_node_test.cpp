@@ -166,7 +166,7 @@ TEST_F(FeedbackNode, drives_only_after_neutral_and_falls_silent_after_a_stop) {
   const int count = twists_;
   pass(0.5);
   EXPECT_EQ(twists_, count) << "nothing is published while the stick is lost";
-  EXPECT_TRUE(heard("pad_lost"));
+  EXPECT_TRUE(until([this] { return heard("pad_lost"); }));
 
   stick_ = 1.0F;
   pass(1.0);

@@ -712,6 +712,23 @@ TEST_F(GuideTest, what_is_near_is_felt_less_under_a_safety_phrase_and_not_after_
   EXPECT_EQ(felt(), 0.0);
 }
 
+TEST_F(GuideTest, a_stick_that_a_busy_computer_delays_is_to_be_released_and_not_lost) {
+  pass(0.5);
+  hold(0.0, 1.0);
+  EXPECT_GT(pass(1.0).command->linear, 0.5);
+  input_.hands.live = false;
+  input_.hands.late = true;
+  pass(0.02);
+  EXPECT_FALSE(pass(0.5).command) << "after one last zero";
+  input_.hands.live = true;
+  input_.hands.late = false;
+  EXPECT_EQ(pass(0.6).command->linear, 0.0);
+  EXPECT_FALSE(said(CueKind::pad_lost) || said(CueKind::pad_back));
+  input_.hands.live = false;
+  pass(0.02);
+  EXPECT_TRUE(said(CueKind::pad_lost));
+}
+
 TEST_F(GuideTest, a_button_that_is_held_asks_once) {
   pass(6.0);
   kinds_.clear();

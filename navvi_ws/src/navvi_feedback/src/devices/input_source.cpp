@@ -15,10 +15,18 @@ using namespace std::chrono_literals;
 using process::Clock;
 
 constexpr auto kOpens = 10s;  ///< that a busy machine needs for a window at most
-constexpr auto kFrozen = 250ms;
-constexpr auto kAgain = 2s;  ///< between two attempts to open a window
+constexpr auto kAgain = 2s;   ///< between two attempts to open a window
 
 constexpr double kTimeout = 0.25;  // s
+constexpr double kLost = 1.0;      // s
+
+/// What was read last, and how long ago: a busy computer delays it, and has not lost it.
+drive::InputState aged(const drive::InputState& last, double age) {
+  if (age <= kTimeout) return last;
+  drive::InputState silent;
+  silent.late = last.live && age <= kLost;
+  return silent;
+}
 
 bool has_display() {
   const auto set = [](const char* name) {
@@ -65,7 +73,8 @@ drive::InputState Keyboard::input() {
   if (window_->gone()) open_ = false;
   if ((window_->gone() && now - started_ >= kAgain) || now - std::max(started_, last_read_) > kOpens)
     start();
-  return open_ && now - last_read_ <= kFrozen ? last_ : drive::InputState{};
+  const std::chrono::duration<double> age = now - last_read_;
+  return open_ ? aged(last_, age.count()) : drive::InputState{};
 }
 
 void Keyboard::give_way() {
@@ -121,13 +130,12 @@ void InputSource::receive(const drive::InputState& input, double time) {
 
 drive::InputState InputSource::read(double time) {
   if (pad_) return pad_->input();
-  const bool fresh = received_at_ && time - *received_at_ <= kTimeout && received_.live;
-  drive::InputState now = fresh ? received_ : drive::InputState{};
+  drive::InputState now = received_at_ ? aged(received_, time - *received_at_) : received_;
   now.session = 2 * now.session;
   if (!keyboard_) return now;
   drive::InputState own = keyboard_->input();
   own.session = 2 * own.session + 1;
-  return own.live || !fresh ? own : now;
+  return own.live || !(now.live || now.late) ? own : now;
 }
 
 }  // namespace navvi_feedback::devices

@@ -72,7 +72,8 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
 }
 
 Links Senses::links(const Devices& devices, double time) const {
-  const Link pad = devices.hands.live ? Link::alive : seen_hands_ ? Link::lost : Link::never;
+  const bool there = devices.hands.live || devices.hands.late;
+  const Link pad = there ? Link::alive : seen_hands_ ? Link::lost : Link::never;
   return {pad, motion_.link(time, stale_), nearby_.link(time, stale_), guidance_.link(time, stale_),
           devices.audio};
 }

@@ -15,7 +15,9 @@ struct Stick {
 /// The input of the person's hands, from any device, as in sensor_msgs/Joy.
 struct InputState {
   bool live = false;          ///< the device is there and was read within the last 250 ms
-  bool late = false;          ///< it comes so late that the robot is to be slow
+  /// It comes so late that the robot is to be slow; while not live: that it stands, but no person
+  /// needs to be told that it is lost.
+  bool late = false;
   std::int64_t stamp = 0;     ///< ns, ROS time, as a driver of another computer has it; 0: none
   unsigned session = 0;       ///< another number whenever the device was opened anew or came back
   std::vector<double> axes;   ///< [-1, 1]; 0: left stick, left positive; 1: forward positive
