@@ -120,7 +120,9 @@ def test_a_command_is_taken(page, before, line, papers, monkeypatch):
                 assert before is None and refused.sentence.startswith("missing: "), refused.sentence
                 continue
             if words[0] in LAUNCHES:
-                words_for(LaunchFile(LAUNCHES[words[0]]), [word for word in args.words if words[0] == "run" or not word.startswith("out:=")])
+                far = any(word.startswith("robot:=") for word in args.words)
+                taken = [word for word in args.words if not word.startswith("robot:=") and (words[0] == "run" or not word.startswith("out:="))]
+                words_for(LaunchFile("person.launch" if far else LAUNCHES[words[0]]), taken)
             if words[0] == "batch":
                 assert batch.trials_of(args) and batch.shard_of(args.shard)
     for name, words in re.findall(r"^roslaunch navvi (\w+\.launch)(.*)", line):

@@ -134,7 +134,7 @@ Observation Guide::Parts::observe(const Devices& devices, double dt, double time
   now.begun = std::exchange(begun, {});
   const haptics::HapticsConfig& haptics = config.haptics;
   now.motors = devices.felt && haptics.enabled;
-  now.touch = devices.motors && haptics.enabled && haptics.patterns;
+  now.touch = devices.motors && now.motors && haptics.patterns;
   const sounds::SoundsConfig& sounds = config.sounds;
   now.audible = devices.sounds && sounds.enabled;
   if (now.audible) now.sounds = {sounds.shelf.on, sounds.near.on};

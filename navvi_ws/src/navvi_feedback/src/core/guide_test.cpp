@@ -710,6 +710,19 @@ TEST_F(GuideTest, a_stick_that_a_busy_computer_delays_is_to_be_released_and_not_
   EXPECT_TRUE(said(CueKind::pad_lost));
 }
 
+TEST_F(GuideTest, says_each_time_to_who_has_no_motors_what_others_feel) {
+  input_.keyboard = true;
+  input_.felt = false;
+  hold(0.0, 1.0);
+  int words = 0;
+  for (int i = 0; i < 300; ++i) {
+    lead(5.0);
+    for (const cues::Cue& cue : pass(0.02).cues)
+      if (cue.kind == CueKind::release_stick && !cue.felt) ++words;
+  }
+  EXPECT_EQ(words, 3);
+}
+
 TEST_F(GuideTest, a_button_that_is_held_asks_once) {
   pass(6.0);
   kinds_.clear();
