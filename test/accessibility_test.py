@@ -345,7 +345,7 @@ SAID = {
     "ready": "press_start", "begun": "trial_begins", "rerouted": "rerouted", "arrived": "arrived", "stuck": "stuck", "halt": "obstacle_stop", "stopped": "robot_stopped",
     "hit_obstacle": "collision_obstacle", "hit_shelf": "collision_shelf", "shelf_near": "shelf_near", "shelf_close": "shelf_close",
     "turn": "direction", "turn_click": "direction", "turn_stop": "straight", "on_course": "straight", "beacon": "direction",
-    "flow": "direction", "answer": "goal_info",
+    "flow": "direction", "answer": "goal_info", "assisted": "assisted",
 }
 
 
