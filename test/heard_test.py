@@ -2,6 +2,7 @@
 import os
 import subprocess
 import time
+from pathlib import Path
 
 import rospy
 from navvi_msgs.msg import Cue, TrialState
@@ -69,3 +70,9 @@ def test_who_drives_hears_that_the_session_ends(master, tmp_path):
     node.wait(60)
     until("trial_over", Cue.ENDED)
     assert ("trial_over", Cue.STARTED) in said
+
+
+def test_the_stopwatch_of_what_a_person_waits_for_sees_each_chain():
+    bench = Path(__file__).resolve().parent.parent / "navvi_ws/src/navvi_study/bench/latency_bench"
+    run = subprocess.run([bench, "--rounds=1"], capture_output=True, text=True, timeout=200)
+    assert run.returncode == 0 and "never seen" not in run.stdout, run.stdout + run.stderr
