@@ -126,6 +126,7 @@ Observation Guide::Parts::observe(const Devices& devices, double dt, double time
   now.pressed = buttons.update(devices.hands);
   now.pressed.insert(now.pressed.end(), devices.asked.begin(), devices.asked.end());
   now.stick = drive.shaped(devices.hands.stick(config.drive.stick == "right"));
+  now.menu_open = menu.open();
   now.robotless = teacher.alone();
   now.stick_held_unarmed = held_unarmed && !now.robotless;
   now.stick_disabled = pushed_disabled && !now.robotless;

@@ -127,6 +127,8 @@ void StateCues::observe(const Tick& tick) {
 
 bool StateCues::due(const Tick& tick, std::optional<double> halted) const {
   if (tick.time - since_ < hold(tick, halted)) return false;
+  // Who is in the menu is about to do what is awaited.
+  if (awaited_ && tick.now.menu_open) return false;
   if (lost_) return tick.time - *lost_ >= kTryAgain;
   const bool pushed = awaited_ && tick.now.stick_held_unarmed;
   const double pause = pushed ? kHeldBack : config_.kProblemRepeat;

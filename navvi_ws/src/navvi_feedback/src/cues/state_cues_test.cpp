@@ -28,6 +28,16 @@ TEST_F(StateCuesTest, says_go_at_once_and_not_after_the_words_that_asked_for_the
   EXPECT_TRUE(last_.asked);
 }
 
+TEST_F(StateCuesTest, does_not_ask_into_an_open_menu_for_what_is_chosen_there) {
+  now_.trial = TrialState::State::choose_goal;
+  now_.guidance->state = Guidance::State::no_goal;
+  EXPECT_EQ(pass(3.0), Texts{"choose a goal"});
+  now_.menu_open = true;
+  EXPECT_EQ(pass(60.0), Texts{});
+  now_.menu_open = false;
+  EXPECT_EQ(pass(3.0), Texts{"choose a goal"});
+}
+
 TEST_F(StateCuesTest, announces_the_arrival_again_to_who_begins_a_trial_at_its_goal) {
   under_way();
   now_.guidance->state = Guidance::State::arrived;

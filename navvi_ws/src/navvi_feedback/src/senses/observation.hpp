@@ -53,6 +53,7 @@ struct Observation {
   LinkState connection;                   ///< as the robot's side measures it
   bool cut_off = false;                   ///< all that comes by it is silent
   bool simulated = false;                 ///< there is a simulator, whose world is known
+  bool menu_open = false;                 ///< the person chooses from it
   bool robotless = false;                 ///< a lesson that wants no robot: none of it is missed
   Velocity commanded;                     ///< what was last sent to it
   std::optional<Velocity> measured;       ///< nullopt while the odometry is missing or stale
