@@ -63,7 +63,7 @@ LINES = [each for each in FOUND if not each[2].startswith(ELSEWHERE)]
 
 def runs(before, line):
     """Whether it does something here, beside being parsed."""
-    return before is not None and line.startswith(("./navvi run", "./navvi world", "./navvi navmesh", "./navvi study check", "roslaunch", "source"))
+    return before is not None and " robot:=" not in line and line.startswith(("./navvi run", "./navvi world", "./navvi navmesh", "./navvi study check", "roslaunch", "source"))
 
 
 @pytest.fixture(scope="module")
