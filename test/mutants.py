@@ -34,7 +34,8 @@ def mutants(text):
                 changed = code[:found.start()] + to + code[found.end():]
                 if to == "if (!":
                     changed = code[:found.start()] + negated(code[found.start():])
-                yield number, changed
+                if changed != code:
+                    yield number, changed
         limit = re.match(r"(\s*constexpr \w+ k\w+ = )([\d.]+);", code)
         if limit:
             yield number, f"{limit[1]}10 * {limit[2]};"

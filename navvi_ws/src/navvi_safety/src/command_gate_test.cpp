@@ -306,6 +306,51 @@ TEST_F(Gate, a_command_beyond_the_limits_is_clamped_and_counted) {
   EXPECT_EQ(wheels_.linear, -1.5);
   EXPECT_EQ(wheels_.angular, 2.5);
   EXPECT_EQ(gate_.clamped(), 1u);
+  hold(kStep, Velocity{0.0, 9.0});
+  EXPECT_EQ(gate_.clamped(), 2u) << "one of the two is enough";
+}
+
+TEST_F(Gate, names_bad_commands_as_the_reason_only_where_none_was_good_since) {
+  start();
+  gate_.receive({std::nullopt}, now_);
+  hold(kStep, Velocity{1.0, 0.0});
+  silence(0.3, 0.3);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_lost);
+}
+
+TEST_F(Gate, what_was_neutral_before_a_stop_does_not_count_after_it) {
+  start();
+  hold(1.0, Velocity{});
+  gate_.stop(CommandGate::Reason::emergency_stop);
+  hold(0.2, Velocity{});
+  EXPECT_EQ(gate_.state(), CommandGate::State::stopped);
+  hold(0.2, Velocity{});
+  EXPECT_EQ(gate_.state(), CommandGate::State::running);
+}
+
+TEST_F(Gate, the_stick_must_be_neutral_for_long_enough_by_both_clocks) {
+  for (const auto& [wall, sim] : {std::pair{0.001, 0.02}, std::pair{0.02, 0.001}}) {
+    CommandGate gate{CommandGateConfig{}};
+    for (int i = 0; i < 40; ++i) {
+      now_.wall += wall;
+      now_.sim += sim;
+      gate.receive({Velocity{}}, now_);
+      EXPECT_EQ(gate.update(now_).linear, 0.0);
+    }
+    EXPECT_EQ(gate.state(), CommandGate::State::waiting);
+  }
+}
+
+TEST_F(Gate, assistance_turns_no_faster_than_the_robot_may) {
+  CommandGateConfig config;
+  config.assistance = "steer";
+  config.max_angular = 0.3;
+  gate_ = CommandGate(config);
+  hold(0.4, Velocity{});
+  gate_.see({{navvi_types::ThingClass::box, 1, 0.65, {1.0, 0.0}}}, now_);
+  hold(kStep, Velocity{0.9, 0.2});
+  EXPECT_EQ(gate_.drive_state(0).assistance, navvi_types::DriveState::Assistance::steers_left);
+  EXPECT_EQ(wheels_.angular, 0.3);
 }
 
 TEST(CommandGate, admits_the_one_driver_and_names_any_other) {
