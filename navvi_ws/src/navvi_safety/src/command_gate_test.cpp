@@ -326,6 +326,7 @@ TEST_F(Gate, what_was_neutral_before_a_stop_does_not_count_after_it) {
   EXPECT_EQ(gate_.state(), CommandGate::State::stopped);
   hold(0.2, Velocity{});
   EXPECT_EQ(gate_.state(), CommandGate::State::running);
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::none);
 }
 
 TEST_F(Gate, the_stick_must_be_neutral_for_long_enough_by_both_clocks) {
