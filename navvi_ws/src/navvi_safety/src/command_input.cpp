@@ -42,13 +42,13 @@ void CommandInput::receive(const ros::MessageEvent<const geometry_msgs::TwistSta
                       gate_.rejected());
 }
 
-ros::Subscriber see_by(ros::NodeHandle& node, CommandGate& gate,
+ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic, CommandGate& gate,
                        const std::function<Instant()>& now) {
   const boost::function<void(const navvi_msgs::Proximity::ConstPtr&)> see =
       [&gate, now](const navvi_msgs::Proximity::ConstPtr& msg) {
         if (const auto proximity = navvi_types::from_msg(*msg)) gate.see(proximity->things, now());
       };
-  return node.subscribe<navvi_msgs::Proximity>("navvi/proximity", 1, see, {},
+  return node.subscribe<navvi_msgs::Proximity>(topic, 1, see, {},
                                                ros::TransportHints().tcpNoDelay());
 }
 

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
         ros::TransportHints().tcpNoDelay());
     ros::Subscriber near;
     if (config.gate.assistance != "off")
-      near = navvi_safety::see_by(node, gate, navvi_safety::now);
+      near = navvi_safety::see_by(node, "navvi/proximity", gate, navvi_safety::now);
     std::optional<navvi_types::DriveState> published;
     const auto publish_state = [&] {
       const auto now = gate.drive_state(navvi_types::to_ns(ros::Time::now()));

@@ -38,8 +38,8 @@ class CommandInput {
   unsigned last_link_ = 0;
 };
 
-/// Shows the gate what is near, by navvi/proximity.
-[[nodiscard]] ros::Subscriber see_by(ros::NodeHandle& node, CommandGate& gate,
-                                     const std::function<Instant()>& now);
+/// Shows the gate what is near. \param topic  with navvi_msgs/Proximity
+[[nodiscard]] ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic,
+                                     CommandGate& gate, const std::function<Instant()>& now);
 
 }  // namespace navvi_safety

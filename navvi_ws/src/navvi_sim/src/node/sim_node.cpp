@@ -90,7 +90,9 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
   commands_ = commands_node.subscribe("navvi/command", navvi_safety::kCommandQueue, &SimNode::receive,
                                       this, ros::TransportHints().tcpNoDelay());
   if (config_.gate.assistance != "off")
-    near_ = navvi_safety::see_by(commands_node, gate_, [this] { return instant(); });
+    near_ = navvi_safety::see_by(
+        commands_node, config_.sensing == "truth" ? "navvi/proximity" : "navvi/seen/proximity",
+        gate_, [this] { return instant(); });
   clocks_ = commands_node.subscribe("clock", 100, &SimNode::hear_clock, this,
                                     ros::TransportHints().tcpNoDelay());
   timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
