@@ -27,7 +27,9 @@ std::optional<Utterance> lasting(const Tick& tick, const StateCues& state, const
   if (problem && problem != CueKind::blocked && problem != CueKind::welcome)
     return problem_words(*problem, tick.now);
   if (held.needed()) return Utterance{*held.needed()};
-  if (halt.halted()) return halt.words();
+  // Without a goal nothing ends a wait; it is shown like what happens.
+  const bool holds = !state.goal_gone() || (halt.told() && tick.time - *halt.told() < kShown);
+  if (halt.halted() && holds) return halt.words();
   return leads ? route.order(*tick.now.guidance) : std::nullopt;
 }
 

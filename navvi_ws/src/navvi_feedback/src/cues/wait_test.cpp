@@ -78,6 +78,17 @@ TEST_F(WaitTest, ends_by_go_on_and_the_direction_where_ticks_lead_and_where_word
   EXPECT_EQ(pass(10.0), Texts{"go on, drive straight, 20 meters"});
 }
 
+TEST_F(WaitTest, is_not_shown_for_long_when_its_goal_is_gone) {
+  now_.guidance->state = Guidance::State::arrived;
+  pass(1.0);
+  EXPECT_EQ(policy_.order().value().kind, CueKind::arrived);
+  now_.guidance->state = Guidance::State::no_goal;
+  pass(5.0);
+  EXPECT_FALSE(policy_.order()) << policy_.order()->text;
+  follow();
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
+}
+
 TEST_F(WaitTest, is_not_over_before_go_on_was_heard_to_its_end) {
   for (const CueStage lost : {CueStage::cut, CueStage::dropped}) {
     follow();

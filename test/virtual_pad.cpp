@@ -1,0 +1,70 @@
+// Preloaded into a program that looks for game controllers, it plugs in SDL's own virtual one. Its stick and buttons come by datagrams
+// to the socket $VIRTUAL_PAD: four floats, left and forward in [-1, 1], then 1 for each of the buttons A and Start that is down. What the
+// motors are told goes to $VIRTUAL_PAD.motors: two floats, left and right in [0, 1].
+#include <SDL.h>
+#include <dlfcn.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <thread>
+
+namespace {
+
+int g_socket = -1;
+
+/// SDL's function, of the program's own library.
+#define SDL(name) reinterpret_cast<decltype(&name)>(::dlsym(RTLD_NEXT, #name))
+
+sockaddr_un address(const std::string& path) {
+  sockaddr_un found = {};
+  found.sun_family = AF_UNIX;
+  std::strncpy(found.sun_path, path.c_str(), sizeof(found.sun_path) - 1);
+  return found;
+}
+
+int on_rumble(void* motors, Uint16 left, Uint16 right) {
+  const std::array<float, 2> forces = {static_cast<float>(left) / 65535.0F, static_cast<float>(right) / 65535.0F};
+  ::sendto(g_socket, forces.data(), sizeof(forces), MSG_DONTWAIT, static_cast<const sockaddr*>(motors), sizeof(sockaddr_un));
+  return 0;
+}
+
+void obey(SDL_Joystick* pad) {
+  const auto set_axis = SDL(SDL_JoystickSetVirtualAxis);
+  const auto set_button = SDL(SDL_JoystickSetVirtualButton);
+  for (std::array<float, 4> hand{}; ::recv(g_socket, hand.data(), sizeof(hand), 0) == sizeof(hand);) {
+    set_axis(pad, SDL_CONTROLLER_AXIS_LEFTX, static_cast<Sint16>(-32767.0F * hand[0]));
+    set_axis(pad, SDL_CONTROLLER_AXIS_LEFTY, static_cast<Sint16>(-32767.0F * hand[1]));
+    set_button(pad, SDL_CONTROLLER_BUTTON_A, hand[2] > 0.0F ? 1 : 0);
+    set_button(pad, SDL_CONTROLLER_BUTTON_START, hand[3] > 0.0F ? 1 : 0);
+  }
+}
+
+void plug_in(const std::string& path) {
+  static sockaddr_un motors = address(path + ".motors");
+  const sockaddr_un own = address(path);
+  g_socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  if (::bind(g_socket, reinterpret_cast<const sockaddr*>(&own), sizeof(own)) != 0) return;
+  SDL_VirtualJoystickDesc pad = {};
+  pad.version = SDL_VIRTUAL_JOYSTICK_DESC_VERSION;
+  pad.type = SDL_JOYSTICK_TYPE_GAMECONTROLLER;
+  pad.naxes = SDL_CONTROLLER_AXIS_MAX;
+  pad.nbuttons = SDL_CONTROLLER_BUTTON_MAX;
+  pad.name = "virtual pad";
+  pad.userdata = &motors;
+  pad.Rumble = &on_rumble;
+  SDL_Joystick* const joystick = SDL(SDL_JoystickOpen)(SDL(SDL_JoystickAttachVirtualEx)(&pad));
+  if (joystick != nullptr) std::thread(obey, joystick).detach();
+}
+
+}  // namespace
+
+extern "C" int SDL_InitSubSystem(Uint32 flags) {
+  const int result = SDL(SDL_InitSubSystem)(flags);
+  const char* const path = std::getenv("VIRTUAL_PAD");
+  if (result == 0 && (flags & SDL_INIT_GAMECONTROLLER) != 0 && path != nullptr && g_socket < 0) plug_in(path);
+  return result;
+}
