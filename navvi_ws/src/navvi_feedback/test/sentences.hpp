@@ -34,8 +34,8 @@ inline YAML::Node phrases(const std::string& language) {
 inline unsigned unsaid(Voice& voice, const Texts& texts) {
   unsigned count = 0;
   for (const std::string& text : texts) {
-    const auto sound = voice.synthesize(text, 440);
-    if (!sound || (sound->samples.empty() && !text.empty())) ++count;
+    const auto sound = voice.begin(text, 440);
+    if (!sound || (sound->samples.empty() && !text.empty()) || !voice.rest()) ++count;
   }
   return count;
 }

@@ -75,6 +75,7 @@ struct Mixer::Handles {
   ALCcontext* context = nullptr;
   std::array<ALuint, kSources> sources{};
   std::array<ALuint, kSources> buffers{};
+  std::array<ALuint, kVoices> rests{};  ///< buffers of what follows
   std::size_t voice = 0;
   std::size_t next = kVoices;  ///< of the short sounds, the oldest
 
@@ -83,13 +84,32 @@ struct Mixer::Handles {
     const ALuint source = sources.at(index);
     release(index);
     alGetError();
-    alBufferData(buffers.at(index), AL_FORMAT_MONO16, sound.samples.data(),
-                 static_cast<ALsizei>(sound.samples.size() * sizeof(sound.samples[0])), sound.rate);
-    alSourcei(source, AL_BUFFER, static_cast<ALint>(buffers.at(index)));
+    fill(buffers.at(index), sound);
+    if (index < kVoices)
+      alSourceQueueBuffers(source, 1, &buffers.at(index));
+    else
+      alSourcei(source, AL_BUFFER, static_cast<ALint>(buffers.at(index)));
     alSourcef(source, AL_GAIN, static_cast<float>(gain));
     place(source, from);
     alSourcePlay(source);
     return alGetError() == AL_NO_ERROR;
+  }
+  /// What was heard to its end before this came is not heard again.
+  [[nodiscard]] bool go_on(const Sound& sound) const {
+    const ALuint source = sources.at(voice);
+    alGetError();
+    fill(rests.at(voice), sound);
+    ALint state = AL_STOPPED;
+    alGetSourcei(source, AL_SOURCE_STATE, &state);
+    ALuint heard = 0;
+    if (state != AL_PLAYING) alSourceUnqueueBuffers(source, 1, &heard);
+    alSourceQueueBuffers(source, 1, &rests.at(voice));
+    if (state != AL_PLAYING) alSourcePlay(source);
+    return alGetError() == AL_NO_ERROR;
+  }
+  static void fill(ALuint buffer, const Sound& sound) {
+    alBufferData(buffer, AL_FORMAT_MONO16, sound.samples.data(),
+                 static_cast<ALsizei>(sound.samples.size() * sizeof(sound.samples[0])), sound.rate);
   }
   void release(std::size_t index) const {
     alSourceStop(sources.at(index));
@@ -128,6 +148,7 @@ void Mixer::open(Status::Device otherwise) {
   if (handles_->context != nullptr && alcMakeContextCurrent(handles_->context) == ALC_TRUE) {
     alGenSources(Handles::kSources, handles_->sources.data());
     alGenBuffers(Handles::kSources, handles_->buffers.data());
+    alGenBuffers(Handles::kVoices, handles_->rests.data());
   }
   if (handles_->sources[0] == 0 || handles_->buffers[0] == 0) {
     close();
@@ -197,6 +218,11 @@ bool Mixer::speak(const Sound& sound, double gain) {
   handles_->voice = 1 - handles_->voice;
   return connected() &&
          handles_->start(handles_->voice, sound, volume_ * gain, Eigen::Vector2d::UnitX());
+}
+
+bool Mixer::speak_on(const Sound& sound) {
+  const std::lock_guard lock(device_mutex_);
+  return connected() && (sound.samples.empty() || handles_->go_on(sound));
 }
 
 bool Mixer::speaking() const {

@@ -60,6 +60,8 @@ class Mixer {
 
   /// Instead of what the voice says. \return false if nothing is heard
   [[nodiscard]] bool speak(const Sound& sound, double gain);
+  /// After that, once. \return false if it is not heard
+  [[nodiscard]] bool speak_on(const Sound& sound);
   /// False also if the device was lost.
   [[nodiscard]] bool speaking() const;
   /// Samples of what the voice says that have been mixed, for the device to play next.

@@ -135,16 +135,22 @@ bool Speaker::speak(Voice& voice, Job& job) {
   for (std::size_t part = 0; !rest.empty() && !cancelled(); ++part) {
     const auto comma = part < job.scan.size() ? rest.find(", ") : std::string::npos;
     const std::string words = rest.substr(0, comma);
-    auto sound = voice.synthesize(words, job.rate);
-    if (!sound && !cancelled()) sound = voice.synthesize(words, job.rate);
     rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
-    const bool said = sound && !sound->samples.empty();
-    spoken = spoken && said;
     if (part < job.scan.size() && job.scan[part].volume > 0.0) play_first(job.scan[part], job);
+    const bool said = say(voice, words, job);
+    spoken = spoken && said;
     if (!said && !cancelled()) play_first({sounds::Earcon::unsaid}, job);
-    if (said && !cancelled()) play(*sound, job);
   }
   return spoken;
+}
+
+bool Speaker::say(Voice& voice, const std::string& words, Job& job) {
+  for (int tries = 0; tries < 2 && !superseded(job.generation); ++tries) {
+    const auto sound = voice.begin(words, job.rate);
+    if (sound && sound->samples.empty()) return false;
+    if (sound && play(voice, *sound, job)) return true;
+  }
+  return false;
 }
 
 /// Returns when it has been heard, or was superseded.
@@ -171,12 +177,13 @@ bool Speaker::superseded(unsigned long generation) const {
   return generation != generation_;
 }
 
-void Speaker::play(const Sound& sound, Job& job) {
+bool Speaker::play(Voice& voice, const Sound& sound, Job& job) {
   mixer_.tend();
-  const auto end = Clock::now() + seconds(sound.duration());
+  auto end = Clock::now() + seconds(sound.duration());
   const bool faded = mixer_.mixed() != muted_at_;  // what was cut, in a mix since
-  bool audible = !sound.samples.empty() && mixer_.speak(sound, config_.volume);
+  bool audible = mixer_.speak(sound, config_.volume);
   bool begun = !audible;
+  bool whole = false;
   int first = 0;  // samples of the first mix
   while (true) {
     {
@@ -189,6 +196,15 @@ void Speaker::play(const Sound& sound, Job& job) {
       begun = true;
       if (job.begun) std::exchange(job.begun, {})();
     }
+    if (begun && !std::exchange(whole, true)) {
+      const auto rest = voice.rest();
+      if (!rest) {
+        mixer_.stop();
+        return false;
+      }
+      end += seconds(rest->duration());
+      audible = audible && mixer_.speak_on(*rest);
+    }
     if (job.silent && begun && (faded || mixer_.mixed() > first)) std::exchange(job.silent, {})();
     if (audible && !mixer_.speaking()) {
       audible = false;
@@ -197,8 +213,11 @@ void Speaker::play(const Sound& sound, Job& job) {
     // What a device that was lost did not play passes in silence, so that the times stay true.
     if (!audible && Clock::now() >= end) break;
   }
-  if (audible && mixer_.speaking()) return fall_silent();
-  mixer_.stop();
+  if (audible && mixer_.speaking())
+    fall_silent();
+  else
+    mixer_.stop();
+  return true;
 }
 
 void Speaker::fall_silent() {

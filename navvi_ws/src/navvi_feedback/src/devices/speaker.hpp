@@ -79,7 +79,10 @@ class Speaker {
   /// Returns when the sound has ended, or was superseded and is silent.
   /// \return false if nothing could be spoken
   [[nodiscard]] bool speak(Voice& voice, Job& job);
-  void play(const Sound& sound, Job& job);
+  /// Likewise, of a part of it.
+  [[nodiscard]] bool say(Voice& voice, const std::string& words, Job& job);
+  /// \param sound  its beginning \return false if the voice's process was lost over the rest
+  [[nodiscard]] bool play(Voice& voice, const Sound& sound, Job& job);
   void play_first(const sounds::Play& play, Job& job);
   /// Waits until it is, unless something is to be said.
   void fall_silent();

@@ -38,9 +38,23 @@ std::string Voice::start() {
   return first ? first->bytes : "The program espeak_voice does not start; build NavVI again.";
 }
 
-std::optional<Sound> Voice::synthesize(const std::string& text, int rate) {
+std::optional<Sound> Voice::begin(const std::string& text, int rate) {
   if (!child_ && !start().empty()) return std::nullopt;
-  if (child_->send(rate, text))
+  if (!child_->send(rate, text) || (rest_due_ && !rest())) {
+    replace();
+    return std::nullopt;
+  }
+  rest_due_ = true;
+  return receive();
+}
+
+std::optional<Sound> Voice::rest() {
+  rest_due_ = false;
+  return receive();
+}
+
+std::optional<Sound> Voice::receive() {
+  if (child_)
     if (const auto answer = child_->receive(Clock::now() + kHangs)) return sound_of(*answer);
   replace();
   return std::nullopt;
@@ -51,6 +65,7 @@ void Voice::tend() {
 }
 
 void Voice::replace() {
+  rest_due_ = false;
   ++losses_;
   static_cast<void>(start());
 }

@@ -27,11 +27,14 @@ class Voice {
   /// \throws DeviceError if the library, its data or the voice cannot be loaded
   Voice(const std::string& name, int pitch);
 
-  /// Markup in the text is read aloud, not obeyed.
+  /// Begins a sentence. Markup in the text is read aloud, not obeyed.
   /// \param rate  words a minute, 80..449
-  /// \return no samples if espeak-ng cannot speak the text; nullopt if its process ended over it, or
-  /// hung for a second. That is running again then, if it can.
-  [[nodiscard]] std::optional<Sound> synthesize(const std::string& text, int rate);
+  /// \return the first 0.2 s of its sound or more; no samples if espeak-ng cannot speak the text;
+  /// nullopt if its process ended over it, or hung for a second. That is running again then, if it
+  /// can.
+  [[nodiscard]] std::optional<Sound> begin(const std::string& text, int rate);
+  /// What follows that, likewise; no samples if that was all. A new begin() does without it.
+  [[nodiscard]] std::optional<Sound> rest();
 
   /// Between sentences: starts a process anew that was lost.
   void tend();
@@ -45,9 +48,12 @@ class Voice {
   /// \return empty, or a sentence on why there is none
   [[nodiscard]] std::string start();
   void replace();
+  /// \return nullopt if the process was lost
+  [[nodiscard]] std::optional<Sound> receive();
 
   std::vector<std::string> arguments_;
   std::unique_ptr<process::Child> child_;  ///< nullptr: it could not be started anew
+  bool rest_due_ = false;                  ///< of the last sentence
   unsigned losses_ = 0;
 };
 

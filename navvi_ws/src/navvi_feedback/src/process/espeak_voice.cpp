@@ -1,10 +1,13 @@
 // The program of the voice: sentences in, samples out. espeak-ng may crash or hang, and ends only
-// this process then. The first frame that it sends, and each answer, has the samples' rate in Hz
+// this process then. A request has the words a minute as its value and the text as its bytes. The
+// first frame that it sends, and each of the two that answer a request, has the samples' rate in Hz
 // as its value and the samples, of 16 bits each, as its bytes; or 0 and a sentence on what failed.
-// A request has the words a minute as its value and the text as its bytes.
+// The first of the two comes as soon as there is enough to begin with; a new request cuts the second
+// short.
 // Usage: espeak_voice VOICE PITCH
 
 #include <espeak-ng/speak_lib.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <array>
@@ -21,43 +24,77 @@ using Samples = std::vector<short>;
 
 /// s; nothing that may be spoken takes as long.
 constexpr int kLongest = 20;
-constexpr std::size_t kRamp = 110;  // samples, 5 ms
+/// s, heard while the rest is synthesized, in some 10 ms.
+constexpr double kBegin = 0.25;
+constexpr std::ptrdiff_t kRamp = 110;  // samples, 5 ms
 
-std::size_t g_most = 0;  ///< samples of one sentence
+/// One sentence, as far as it is synthesized and was not sent.
+struct Sentence {
+  int socket;
+  int rate;  ///< samples a second
+  Samples samples = {};
+  std::size_t sent = 0;  ///< samples
+};
 
-int on_samples(short* samples, int count, espeak_EVENT* events) {
-  auto* all = static_cast<Samples*>(events->user_data);
-  if (all == nullptr) return 0;
-  if (all->size() > g_most) {
-    all->clear();
-    return 1;
-  }
-  if (samples != nullptr && count > 0) all->insert(all->end(), samples, samples + count);
-  return 0;
+bool send_samples(Sentence& sentence, std::ptrdiff_t count) {
+  const auto size = static_cast<std::size_t>(count);
+  const std::string_view bytes(reinterpret_cast<const char*>(sentence.samples.data()),
+                               size * sizeof(short));
+  const bool done = send(sentence.socket, sentence.rate, bytes);
+  sentence.samples.erase(sentence.samples.begin(), sentence.samples.begin() + count);
+  sentence.sent += size;
+  return done;
 }
 
-/// A start and an end at zero, so that neither clicks.
-void soften(Samples& samples) {
-  const std::size_t ramp = std::min(samples.size() / 2, kRamp);
-  for (std::size_t i = 0; i < ramp; ++i) {
-    const auto scaled = [&](short sample) {
-      return static_cast<short>(sample * static_cast<int>(i) / static_cast<int>(ramp));
-    };
-    samples[i] = scaled(samples[i]);
-    samples[samples.size() - 1 - i] = scaled(samples[samples.size() - 1 - i]);
-  }
+/// From silence, so that it does not click.
+template <typename Iterator>
+void fade(Iterator sample, std::ptrdiff_t count) {
+  for (std::ptrdiff_t i = 0; i < count; ++i, ++sample)
+    *sample = static_cast<short>(*sample * i / count);
+}
+
+bool asked_again(int socket) {
+  pollfd ready{socket, POLLIN, 0};
+  return ::poll(&ready, 1, 0) > 0;
+}
+
+int on_samples(short* samples, int count, espeak_EVENT* events) {
+  auto* sentence = static_cast<Sentence*>(events->user_data);
+  if (sentence == nullptr) return 0;
+  Samples& all = sentence->samples;
+  if (samples != nullptr && count > 0) all.insert(all.end(), samples, samples + count);
+  if (all.size() + sentence->sent > static_cast<std::size_t>(sentence->rate * kLongest)) return 1;
+  if (sentence->sent > 0) return asked_again(sentence->socket) ? 1 : 0;
+  if (static_cast<double>(all.size()) < kBegin * sentence->rate) return 0;
+  fade(all.begin(), kRamp);
+  return send_samples(*sentence, static_cast<std::ptrdiff_t>(all.size()) - kRamp) ? 0 : 1;
 }
 
 /// espeak-ng up to 1.52 (MatchRule in dictionary.c) reads on beyond a word of some languages up to
 /// the next space, over the stack above: it finds one here, and does not run off the stack.
-[[gnu::noinline]] espeak_ERROR synthesize_below_spaces(const std::string& text, Samples& samples) {
+[[gnu::noinline]] espeak_ERROR synthesize_below_spaces(const std::string& text, Sentence& sentence) {
   std::array<char, 4096> spaces;
   spaces.fill(' ');
   asm volatile("" : : "r"(spaces.data()) : "memory");
   const espeak_ERROR error = espeak_Synth(text.c_str(), text.size() + 1, 0, POS_CHARACTER, 0,
-                                          espeakCHARS_UTF8, nullptr, &samples);
+                                          espeakCHARS_UTF8, nullptr, &sentence);
   asm volatile("" : : "r"(spaces.data()) : "memory");
   return error;
+}
+
+/// \return false if nobody listens
+bool answer(int socket, int sample_rate, const Frame& request) {
+  Sentence sentence{socket, sample_rate};
+  const bool spoken = espeak_SetParameter(espeakRATE, request.value, 0) == EE_OK &&
+                      synthesize_below_spaces(request.bytes, sentence) == EE_OK;
+  const auto left = static_cast<std::ptrdiff_t>(sentence.samples.size());
+  const std::ptrdiff_t ramp = std::min(left / 2, kRamp);
+  fade(sentence.samples.rbegin(), ramp);
+  if (sentence.sent > 0) return send_samples(sentence, left);
+  fade(sentence.samples.begin(), ramp);
+  const bool begun = spoken && left > 0 ? send_samples(sentence, left)
+                                        : send(socket, 0, "espeak-ng does not speak this text.");
+  return begun && send_samples(sentence, 0);
 }
 
 int run(const std::string& voice, const std::string& pitch) {
@@ -73,19 +110,8 @@ int run(const std::string& voice, const std::string& pitch) {
     failure = "espeak-ng does not take the pitch " + pitch + ".";
   if (!send(socket, failure.empty() ? sample_rate : 0, failure) || !failure.empty()) return 1;
   espeak_SetSynthCallback(on_samples);
-  g_most = static_cast<std::size_t>(sample_rate) * kLongest;
-  while (const auto request = receive(socket, Clock::now() + std::chrono::hours(24))) {
-    Samples samples;
-    const bool spoken = espeak_SetParameter(espeakRATE, request->value, 0) == EE_OK &&
-                        synthesize_below_spaces(request->bytes, samples) == EE_OK &&
-                        !samples.empty();
-    soften(samples);
-    const std::string_view bytes(reinterpret_cast<const char*>(samples.data()),
-                                 samples.size() * sizeof(short));
-    if (!(spoken ? send(socket, sample_rate, bytes)
-                 : send(socket, 0, "espeak-ng does not speak this text.")))
-      break;
-  }
+  while (const auto request = receive(socket, Clock::now() + std::chrono::hours(24)))
+    if (!answer(socket, sample_rate, *request)) break;
   return 0;
 }
 
