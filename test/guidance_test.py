@@ -58,7 +58,7 @@ def test_goals_are_met_or_missed():
     rows = [{**one, "contacts": "1", "spl": "0.930", "residual_deg": "4.1"} for one in batch_of((0.0, 0.0, 0.0))]
     cells = {line.split(" | ")[0]: line.split(" | ")[1:] for line in tables.goals(rows)[2:]}
     for measure, wanted in (("| contacts a trial", ["missed"] * 3), ("| SPL", ["missed", "met", "met"]),
-                            ("| left of a turn, deg, median", ["missed", "met", "met"])):
+                            ("| residual turn error, deg, median", ["missed", "met", "met"])):
         assert [cell.partition(": ")[2].strip(" |") for cell in cells[measure]] == wanted
 
 
