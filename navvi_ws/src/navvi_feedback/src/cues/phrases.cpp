@@ -309,7 +309,7 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   const std::string name = file.string();
   check_sections(name, root);
   if (!root["voice"] || !root["voice"].IsScalar())
-    throw ConfigError(name + ": \"voice\" is missing or not a text; it names a voice of espeak-ng.");
+    throw ConfigError(name + ": \"voice\" is missing or not a text; it names an espeak-ng voice.");
   voice_ = root["voice"].Scalar();
 
   Section words(name, root, "words");
