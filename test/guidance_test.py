@@ -68,6 +68,13 @@ def test_touch_in_noise_is_held_to_the_same_worlds_without_it():
     assert tables.noise(rows)[2].split(" | ")[1] == "-1.00 [-1.00, -1.00]"
 
 
+def test_a_row_of_the_table_has_what_a_condition_changes_over_the_same_worlds():
+    lines = tables.guidance(batch_of((20.0, 20.0, -20.0)))
+    cells = {tuple(line.split(" | ")[:2]): line for line in lines[2:]}
+    assert {line.count(" | ") for line in lines[2:]} == {lines[0].count(" | ")} and len(cells) == 6
+    assert "| 10/10 | 0.00 | 104 |" in cells["| able", "default"] and "+20.45 [" in cells["| able", "sounds_off"]
+
+
 def test_each_class_of_failure_names_its_first_trial():
     rows = [row(1), row(2, hits="shelf 1"), row(3, hits="forklift 1 shelf 2"), row(4, result="gave_up"), row(5, condition="brief", hits="worker 1")]
     lines = {line.split(" | ")[0].strip("| "): line.split(" | ")[1:] for line in tables.failures(rows)[2:]}

@@ -78,7 +78,7 @@ def parts(folder, found):
     if "choices" in found:
         out += section("Design choices", CHOICES, command(folder / "choices"), tables.flips(found["choices"]),
                        "![Changes beside the default with intervals, by design choice; a mark a person](guidance_choices.svg)")
-    return out + section("Failures", "In `default` of the closing table.", tables.failures(closing))
+    return out + section("Failures", "In `default` of the closing table. `./navvi batch WORDS --limit=600 --records=all --out=again` records the first of a class.", tables.failures(closing))
 
 
 def page(folder, found, known, notes, day):

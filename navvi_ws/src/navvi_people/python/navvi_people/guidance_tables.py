@@ -100,26 +100,22 @@ def median(rows, name, form):
     return format(statistics.median(numbers), form) if numbers else "-"
 
 
-def per_100m(rows):
-    return 100.0 * sum(int(row["contacts"]) for row in rows) / max(1.0, sum(float(row["path_length_m"]) for row in rows))
-
-
 def changed_conditions(rows):
     return [condition for condition in ordered(rows, "condition") if condition not in ("default", "sighted")]
 
 
 def guidance(rows):
-    lines = head("person", "condition", "trials", "reached", "clean", "contacts", "per 100 m", "time, s", "over sighted", "SPL",
-                 "residual turn error, deg", "utterances/min", *(f"change of {text}" for text in MEASURES.values()))
+    changes_of = {name: text for name, text in MEASURES.items() if name != "spl"}
+    lines = head("person", "condition", "reached", "contacts", "time, s", "over sighted", "SPL", "residual turn error, deg", "utterances/min",
+                 *(f"change of {text}" for text in changes_of.values()))
     for person in ordered(rows, "person"):
         for condition in ordered(rows, "condition"):
             own = of(rows, person, condition)
             mean = {name: statistics.fmean(float(row[name]) for row in own) for name in [*MEASURES, "cues_per_min"]}
-            changes = [""] * 3 if condition in ("default", "sighted") else [
-                shown(*interval(differences(rows, person, condition, name))) for name in MEASURES]
-            lines.append(line(person, condition, len(own), sum(row["result"] == "reached" for row in own),
-                              sum(row["contacts"] == "0" for row in own), f"{mean['contacts']:.2f}", f"{per_100m(own):.2f}", f"{mean['elapsed_s']:.0f}",
-                              median(own, "over_sighted", ".2f"), f"{mean['spl']:.3f}", median(own, "residual_deg", ".1f"),
+            changes = [""] * len(changes_of) if condition in ("default", "sighted") else [
+                shown(*interval(differences(rows, person, condition, name))) for name in changes_of]
+            lines.append(line(person, condition, f"{sum(row['result'] == 'reached' for row in own)}/{len(own)}", f"{mean['contacts']:.2f}",
+                              f"{mean['elapsed_s']:.0f}", median(own, "over_sighted", ".2f"), f"{mean['spl']:.3f}", median(own, "residual_deg", ".1f"),
                               "-" if condition == "sighted" else f"{mean['cues_per_min']:.1f}", *changes))
     return lines
 
@@ -134,7 +130,7 @@ def goals(rows):
             value, low, high = interval(values(of(rows, person, goal.condition), goal.measure), estimate)
             least = goal.measure in ("spl", "reached")
             met = value >= bound if least else value <= bound
-            cells.append(f"{shown(value, low, high, goal.form)}, goal {'at least' if least else 'at most'} {bound:g}: {'met' if met else 'missed'}")
+            cells.append(f"{shown(value, low, high, goal.form)}, {'at least' if least else 'at most'} {bound:g}: {'met' if met else 'missed'}")
         lines.append(line(goal.text, *cells))
     return lines
 
@@ -187,10 +183,9 @@ def failures(rows):
         "stands for more than a minute": lambda row: number(row, "still_s") > 60.0,
         "pushes in vain without a word": lambda row: number(row, "speechless") > 0.0,
     }
-    lines = head("class", "trials of " + str(len(led)), "the first, once more with its record")
+    lines = head("class", "trials of " + str(len(led)), "WORDS of the first")
     for name, belongs in classes.items():
         found = [row for row in led if belongs(row)]
-        again = "-" if not found else (f"`./navvi batch --worlds={found[0]['world']} --seeds={found[0]['seed']} --people={found[0]['person']}:{found[0]['person_seed']} "
-                                       "--limit=600 --records=all --out=again`")
+        again = "-" if not found else f"`--worlds={found[0]['world']} --seeds={found[0]['seed']} --people={found[0]['person']}:{found[0]['person_seed']}`"
         lines.append(line(name, len(found), again))
     return lines
