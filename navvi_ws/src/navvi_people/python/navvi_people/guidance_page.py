@@ -69,7 +69,8 @@ def parts(folder, found):
     if "drawn" in found:
         out += section("Drawn persons", "Persons whose traits are drawn.", command(folder / "drawn"), tables.guidance(found["drawn"]))
     if "worlds" in found:
-        out += section("Other worlds", "Likewise in `narrow` and `warehouse`.", command(folder / "worlds"), tables.guidance(found["worlds"]))
+        out += section("Other worlds", "Likewise in `narrow` and `warehouse`.", command(folder / "worlds"),
+                       [row for row in tables.guidance(found["worlds"]) if " | sighted | " not in row])
     if "noise" in found:
         out += section("Touch in noise", "People who hear one sentence or sound in two.", command(folder / "noise"), tables.noise(found["noise"]))
     if "worse" in found:
