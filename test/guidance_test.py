@@ -58,7 +58,7 @@ def test_goals_are_met_or_missed():
     rows = [{**one, "contacts": "1", "spl": "0.930", "residual_deg": "4.1"} for one in batch_of((0.0, 0.0, 0.0))]
     cells = {line.split(" | ")[0]: line.split(" | ")[1:] for line in tables.goals(rows)[2:]}
     for measure, wanted in (("| contacts a trial", ["missed"] * 3), ("| SPL", ["missed", "met", "met"]),
-                            ("| left of a turn, deg, median", ["missed", "met", "met"])):
+                            ("| residual turn error, deg, median", ["missed", "met", "met"])):
         assert [cell.partition(": ")[2].strip(" |") for cell in cells[measure]] == wanted
 
 
@@ -66,6 +66,13 @@ def test_touch_in_noise_is_held_to_the_same_worlds_without_it():
     rows = [row(seed, person, condition, contacts=contacts) for seed in range(5) for person in tables.TYPES
             for condition, contacts in (("noise_numb", "1"), ("noise_hand", "0"))]
     assert tables.noise(rows)[2].split(" | ")[1] == "-1.00 [-1.00, -1.00]"
+
+
+def test_a_row_of_the_table_has_what_a_condition_changes_over_the_same_worlds():
+    lines = tables.guidance(batch_of((20.0, 20.0, -20.0)))
+    cells = {tuple(line.split(" | ")[:2]): line for line in lines[2:]}
+    assert {line.count(" | ") for line in lines[2:]} == {lines[0].count(" | ")} and len(cells) == 6
+    assert "| 10/10 | 0.00 | 104 |" in cells["| able", "default"] and "+20.45 [" in cells["| able", "sounds_off"]
 
 
 def test_each_class_of_failure_names_its_first_trial():

@@ -8,7 +8,7 @@ trials.json, what each column means. doc/batch.md tells more.
 A person is able, typical, struggling, deafblind, noise or drawn: in each world
 another one, or those with your seeds, such as drawn:1-20. A condition is
 default, sounds_off, touch_off, words_off, words_alone, flow, hand, hand_alone,
-brief, sighted (the hand led by eyes), or a name of your own:
+brief, sighted (the reference), or a name of your own:
 slow=feedback/drive/max_forward:=0.5+nav/replan/period:=3
 
 Exit codes

@@ -5,7 +5,7 @@ motor that is felt, the strength that is comfortable, and the time from the
 sound that ends a turn until the stick is let go (the median of five).
 What was found is told, and saved if you confirm it (start, or enter). Select,
 on the keyboard F8, ends it, and nothing is saved. Any other button, or 12 s of
-silence, repeats the prompt; who lets go after more than 0.8 s is asked again.
+silence, repeats the prompt; a release after more than 0.8 s is asked again.
 
 What was found is saved in the person's settings as feedback/haptics/pads, for
 each model of pad by itself, and feedback/sounds/turn/stopping_delay, and used

@@ -1,7 +1,7 @@
 """Make a package for this Debian: what a session needs, and no sources.
 
 It holds the programs, the launch files, the manual, and a rule for udev that
-lets whoever sits at the machine use a pad's motors. After
+lets the user at the machine use a pad's motors. After
 "sudo apt install ./navvi_*.deb" the command is navvi, records go to
 ~/.navvi/trials, and what builds or tests is missing.
 

@@ -111,7 +111,7 @@ void CuePolicy::remind(const Tick& tick, const Utterances& told) {
     route_.remind(tick.time + config_.kRecover);
 }
 
-/// Whoever hears a word to stop waits for "go on", be it an answer. \return whether one is said
+/// A stop word, also in an answer, holds until "go on". \return whether one is said
 bool CuePolicy::halt(const Utterances& told, const Tick& tick) {
   bool stops = false;
   for (const Utterance& utterance : told) {

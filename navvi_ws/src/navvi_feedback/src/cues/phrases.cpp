@@ -151,7 +151,7 @@ class Section {
       if (allowed && allowed->count(key) == 0) fail(item.first, key, "is not known");
       if (!item.second.IsScalar()) fail(item.second, key, "must be one text");
       if (!texts.emplace(key, item.second.Scalar()).second)
-        fail(item.first, key, "stands there twice");
+        fail(item.first, key, "is defined twice");
     }
     return texts;
   }
@@ -309,7 +309,7 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   const std::string name = file.string();
   check_sections(name, root);
   if (!root["voice"] || !root["voice"].IsScalar())
-    throw ConfigError(name + ": \"voice\" is missing or no text; it names a voice of espeak-ng.");
+    throw ConfigError(name + ": \"voice\" is missing or not a text; it names an espeak-ng voice.");
   voice_ = root["voice"].Scalar();
 
   Section words(name, root, "words");
@@ -414,7 +414,7 @@ std::string Phrases::way(int hour) const {
 
 std::string Phrases::distance(double metres) const {
   if (!std::isfinite(metres) || metres < 0.0)
-    throw std::logic_error("A distance to be spoken is negative or no number.");
+    throw std::logic_error("A distance to be spoken is negative or not a number.");
   const auto length = navvi_types::spoken_length(metres, wording_.units);
   return length.number + " " + words_.at(length.unit);
 }

@@ -23,11 +23,11 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
         "where the stick comes from; topic: joy from another driver");
   visit(speech, "speech", Any{}, "", "false: our own voice and sounds are silent");
   visit(listener, "listener", OneOf{{"device", "topic"}}, "",
-        "what hears: the sound device, or whoever reads navvi/cues, such as a simulated person or "
-        "a screen reader, with or without a device");
+        "the sound device, or a reader of navvi/cues, such as a simulated person or a screen "
+        "reader, with or without a device");
   visit(
       motors, "motors", OneOf{{"joy_node", "ds4_driver"}}, "",
-      "who moves the motors by joy/set_feedback: motor 0 is the strong, left one to joy_node, the "
+      "driver of the motors by joy/set_feedback: motor 0 is the strong, left one to joy_node, the "
       "weak, right one to ds4_driver (with its use_standard_msgs)");
   visit(odom_frame, "odom_frame", Any{}, "",
         "frame of odometry, which a localizer places in the map");

@@ -38,11 +38,11 @@ constexpr double kStill = 0.1;
 constexpr double kTurning = 0.15;
 /// m/s; slower counts as standing.
 constexpr double kDriving = 0.1;
-/// s; who turns on for so long does not obey.
+/// s; a longer turn does not respond to the sound.
 constexpr double kObeys = 2.5;
 /// s, between two sounds to stop at.
 constexpr double kStopAgain = 0.35;
-/// s; who has not begun to turn by then has missed the ticks.
+/// s; without a turn by then the ticks were missed.
 constexpr double kMissed = 5.0;
 /// rad, turned away from the ticks in one go: a turn that went the wrong way.
 constexpr double kAway = 30.0 * kDegree;

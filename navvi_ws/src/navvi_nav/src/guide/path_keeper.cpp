@@ -41,9 +41,8 @@ void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
   visit(gain_length, "gain_length", Range{0.0, 10.0}, "m",
         "length by which it must be shorter besides");
   visit(gain_back, "gain_back", Range{0.0, 100.0}, "m", "and by so much more if it leads back");
-  visit(
-      hold_time, "hold_time", Range{0.0, 60.0}, "s",
-      "a path is kept so long at most while moving things on it would hit who drives on; 0: never");
+  visit(hold_time, "hold_time", Range{0.0, 60.0}, "s",
+        "longest time to keep a path on which a collision is predicted; 0: replan at once");
 }
 
 bool PathKeeper::update(double time, const Conflict& conflict) {

@@ -31,7 +31,7 @@ CONDITIONS = {
 MOST_TRIALS = 1000000
 HEAD = {"trial": "number in the batch, from 0", "world": "name or file", "seed": "of the world", "person": "type", "person_seed": "of the person",
         "condition": "name"}
-COMPARED = ("over_sighted", "time over that of the same hand led by eyes, where both reached the goal")
+COMPARED = ("over_sighted", "time over the sighted reference, where both reached the goal")
 
 
 class BatchError(Exception):
@@ -248,7 +248,7 @@ def run_all(program, trials, args, rows):
 
 
 def beside_sighted(names, lines):
-    """The lines with one cell more, which compares a trial with that of the same hand led by eyes."""
+    """The lines with one cell more, which compares a trial with that of the sighted reference."""
     rows = [dict(zip(names, cells)) for cells in csv.reader(lines)]
 
     def key(row):

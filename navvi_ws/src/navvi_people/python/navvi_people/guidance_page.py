@@ -69,7 +69,8 @@ def parts(folder, found):
     if "drawn" in found:
         out += section("Drawn persons", "Persons whose traits are drawn.", command(folder / "drawn"), tables.guidance(found["drawn"]))
     if "worlds" in found:
-        out += section("Other worlds", "Likewise in `narrow` and `warehouse`.", command(folder / "worlds"), tables.guidance(found["worlds"]))
+        out += section("Other worlds", "Likewise in `narrow` and `warehouse`.", command(folder / "worlds"),
+                       [row for row in tables.guidance(found["worlds"]) if " | sighted | " not in row])
     if "noise" in found:
         out += section("Touch in noise", "People who hear one sentence or sound in two.", command(folder / "noise"), tables.noise(found["noise"]))
     if "worse" in found:
@@ -78,17 +79,17 @@ def parts(folder, found):
     if "choices" in found:
         out += section("Design choices", CHOICES, command(folder / "choices"), tables.flips(found["choices"]),
                        "![Changes beside the default with intervals, by design choice; a mark a person](guidance_choices.svg)")
-    return out + section("Failures", "In `default` of the closing table.", tables.failures(closing))
+    return out + section("Failures", "In `default` of the closing table. `./navvi batch WORDS --limit=600 --records=all --out=again` records the first of a class.", tables.failures(closing))
 
 
 def page(folder, found, known, notes, day):
     return "\n".join([
         "# Guidance, person by person",
-        "Simulated people ([their traits](people.md)); nobody has driven yet. `./navvi bench guidance TRIALS -o doc/guidance.md` makes this page,",
-        "but for the notes: it runs its batches in the folder TRIALS, or what is missing of them; `--as-is` shows those that are there.",
+        "No person has driven yet: these are [simulated people](people.md). `./navvi bench guidance TRIALS -o doc/guidance.md` makes this page but for the",
+        "notes, and runs what its batches in the folder TRIALS lack; `--as-is` runs nothing.",
         f"Measured on {day} in world `busy`, on seeds that no tuning saw, limit 600 s. Intervals hold 95 % (bootstrap); changes are beside",
-        "`default` (ticks) over the same worlds. In each world another person of the type drives, the same in all conditions; `sighted` is the",
-        "same hand led by eyes, `flow` a steady sound, `hand_alone` the motors without any sound.", "",
+        "`default` (ticks) over the same worlds. In each world another person of the type drives, the same in all conditions. `sighted` is the",
+        "reference: the same hand, led by eyes; `flow` is a steady sound, `hand_alone` the motors without any sound.", "",
         *parts(folder, found), *section("Published effects", "`./navvi bench people TYPE`; 200 persons turn, 40 drive; intervals hold 95 % (jackknife over persons).", known), notes])
 
 

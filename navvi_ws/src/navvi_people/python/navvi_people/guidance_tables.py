@@ -26,13 +26,13 @@ class Goal(NamedTuple):
 GOALS = (
     Goal("contacts", "contacts a trial", ".3f", (0.02, 0.05, 0.3)),
     Goal("spl", "SPL", ".3f", (0.95, 0.93, 0.88)),
-    Goal("over_sighted", "time over that of the same hand led by eyes", ".2f", (1.2, 1.5, 2.2)),
-    Goal("residual_deg", "left of a turn, deg, median", ".1f", (4.0, 8.0, 12.0)),
+    Goal("over_sighted", "time over the sighted reference", ".2f", (1.2, 1.5, 2.2)),
+    Goal("residual_deg", "residual turn error, deg, median", ".1f", (4.0, 8.0, 12.0)),
     Goal("cues_per_min", "utterances a minute", ".1f", (8.0, 8.0, 8.0)),
-    Goal("over_sighted", "`flow`: time over that of the same hand led by eyes", ".2f", (1.06, 1.1, 1.2), "flow"),
+    Goal("over_sighted", "`flow`: time over the sighted reference", ".2f", (1.06, 1.1, 1.2), "flow"),
     Goal("contacts", "`flow`: contacts a trial", ".3f", (0.01, 0.03, 0.08), "flow"),
     Goal("reached", "`hand` without any sound: goals reached", ".3f", (0.99, 0.99, 0.98), "hand_alone"),
-    Goal("over_sighted", "likewise: time over that of the same hand led by eyes", ".2f", (1.15, 1.2, 1.3), "hand_alone"),
+    Goal("over_sighted", "likewise: time over the sighted reference", ".2f", (1.15, 1.2, 1.3), "hand_alone"),
     Goal("contacts", "likewise: contacts a trial", ".3f", (0.05, 0.06, 0.12), "hand_alone"),
 )
 
@@ -100,26 +100,22 @@ def median(rows, name, form):
     return format(statistics.median(numbers), form) if numbers else "-"
 
 
-def per_100m(rows):
-    return 100.0 * sum(int(row["contacts"]) for row in rows) / max(1.0, sum(float(row["path_length_m"]) for row in rows))
-
-
 def changed_conditions(rows):
     return [condition for condition in ordered(rows, "condition") if condition not in ("default", "sighted")]
 
 
 def guidance(rows):
-    lines = head("person", "condition", "trials", "reached", "clean", "contacts", "per 100 m", "time, s", "over sighted", "SPL",
-                 "left of turns, deg", "utterances/min", *(f"change of {text}" for text in MEASURES.values()))
+    changes_of = {name: text for name, text in MEASURES.items() if name != "spl"}
+    lines = head("person", "condition", "reached", "contacts", "time, s", "over sighted", "SPL", "residual turn error, deg", "utterances/min",
+                 *(f"change of {text}" for text in changes_of.values()))
     for person in ordered(rows, "person"):
         for condition in ordered(rows, "condition"):
             own = of(rows, person, condition)
             mean = {name: statistics.fmean(float(row[name]) for row in own) for name in [*MEASURES, "cues_per_min"]}
-            changes = [""] * 3 if condition in ("default", "sighted") else [
-                shown(*interval(differences(rows, person, condition, name))) for name in MEASURES]
-            lines.append(line(person, condition, len(own), sum(row["result"] == "reached" for row in own),
-                              sum(row["contacts"] == "0" for row in own), f"{mean['contacts']:.2f}", f"{per_100m(own):.2f}", f"{mean['elapsed_s']:.0f}",
-                              median(own, "over_sighted", ".2f"), f"{mean['spl']:.3f}", median(own, "residual_deg", ".1f"),
+            changes = [""] * len(changes_of) if condition in ("default", "sighted") else [
+                shown(*interval(differences(rows, person, condition, name))) for name in changes_of]
+            lines.append(line(person, condition, f"{sum(row['result'] == 'reached' for row in own)}/{len(own)}", f"{mean['contacts']:.2f}",
+                              f"{mean['elapsed_s']:.0f}", median(own, "over_sighted", ".2f"), f"{mean['spl']:.3f}", median(own, "residual_deg", ".1f"),
                               "-" if condition == "sighted" else f"{mean['cues_per_min']:.1f}", *changes))
     return lines
 
@@ -134,7 +130,7 @@ def goals(rows):
             value, low, high = interval(values(of(rows, person, goal.condition), goal.measure), estimate)
             least = goal.measure in ("spl", "reached")
             met = value >= bound if least else value <= bound
-            cells.append(f"{shown(value, low, high, goal.form)}, goal {'at least' if least else 'at most'} {bound:g}: {'met' if met else 'missed'}")
+            cells.append(f"{shown(value, low, high, goal.form)}, {'at least' if least else 'at most'} {bound:g}: {'met' if met else 'missed'}")
         lines.append(line(goal.text, *cells))
     return lines
 
@@ -159,7 +155,7 @@ def worse(rows):
 def flips(rows):
     """The conclusions from person to person: better or worse than default where the interval excludes none."""
     people = ordered(rows, "person")
-    lines = head("condition, beside default", "measure", *people, "turns round")
+    lines = head("condition, beside default", "measure", *people, "order reverses")
     for condition in changed_conditions(rows):
         for name, text in MEASURES.items():
             verdicts, cells = [], []
@@ -182,15 +178,14 @@ def failures(rows):
         "hits what moves": lambda row: any(name in row["hits"] for name in movers),
         "hits another thing": lambda row: row["hits"] != "-" and not any(name in row["hits"] for name in ("shelf", "wall", *movers)),
         "does not reach the goal": lambda row: row["result"] != "reached",
-        "needs more than three times as long as led by eyes": lambda row: number(row, "over_sighted") > 3.0,
+        "needs more than three times as long as the sighted reference": lambda row: number(row, "over_sighted") > 3.0,
         "turns that leave more than 20 deg, the median": lambda row: number(row, "residual_deg") > 20.0,
         "stands for more than a minute": lambda row: number(row, "still_s") > 60.0,
         "pushes in vain without a word": lambda row: number(row, "speechless") > 0.0,
     }
-    lines = head("class", "trials of " + str(len(led)), "the first, once more with its record")
+    lines = head("class", "trials of " + str(len(led)), "WORDS of the first")
     for name, belongs in classes.items():
         found = [row for row in led if belongs(row)]
-        again = "-" if not found else (f"`./navvi batch --worlds={found[0]['world']} --seeds={found[0]['seed']} --people={found[0]['person']}:{found[0]['person_seed']} "
-                                       "--limit=600 --records=all --out=again`")
+        again = "-" if not found else f"`--worlds={found[0]['world']} --seeds={found[0]['seed']} --people={found[0]['person']}:{found[0]['person_seed']}`"
         lines.append(line(name, len(found), again))
     return lines

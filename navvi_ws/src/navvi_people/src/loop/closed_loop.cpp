@@ -50,7 +50,7 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
   visit.group("perception", perception);
   visit(speech, "speech", navvi_config::Any{}, "", "false: nothing is spoken");
   visit(driver, "driver", navvi_config::OneOf{{"person", "sighted"}}, "",
-        "sighted: the person's hand and liking of speed, but led by eyes: the reference");
+        "sighted: the sighted reference, with the person's hand and preferred speed");
 }
 
 ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_files::Cache* cache)

@@ -169,7 +169,7 @@ void SdfFiles::note_repairs(SdfNotes& notes) const {
 XmlElement SdfFiles::world(SdfNotes& notes) {
   const XmlElement& root = document(world_file_);
   if (root.name != "sdf" || root.child("world") == nullptr)
-    throw WorldError(world_file_.string() + ": is no SDF world (it has " +
+    throw WorldError(world_file_.string() + ": is not an SDF world (it has " +
                      (root.name == "sdf" ? "no <world>" : "<" + root.name + "> for its root") +
                      "); allowed is an <sdf> element with one <world> in it");
   if (root.children_named("world").size() > 1)

@@ -25,7 +25,7 @@ class SdfFiles {
 
   /// The <world> of the world file. In place of each <include> stands what is included, a <model>,
   /// <actor> or <light>, with the name, pose, placement frame and plugins that the include gives.
-  /// \throws WorldError for a file that is no SDF world, and for a model that is missing, that
+  /// \throws WorldError for a file that is not an SDF world, and for a model that is missing, that
   /// includes itself, or that is nested too deep
   [[nodiscard]] XmlElement world(SdfNotes& notes);
 

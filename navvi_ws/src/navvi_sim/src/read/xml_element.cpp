@@ -184,7 +184,7 @@ std::string fault(const tinyxml2::XMLDocument& document) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "an element is not closed, or closed twice";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "an attribute has no value, is not closed, or stands twice in its element";
+      return "an attribute has no value, is not closed, or is given twice in its element";
     case tinyxml2::XML_ERROR_PARSING_TEXT:
       return "a text does not end: no element follows it";
     case tinyxml2::XML_ERROR_PARSING_COMMENT:

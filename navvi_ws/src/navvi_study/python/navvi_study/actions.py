@@ -26,9 +26,9 @@ def opened(args):
 class Check:
     """Print the whole schedule of a study before anything starts.
 
-    The file is read strictly; then follow conditions, who drives what in which
-    order, the minutes of each session, and each world as the reference driver
-    meets it.
+    The file is read strictly; then follow conditions, the order of each
+    participant, the minutes of each session, and each world as the reference
+    driver meets it.
 
     Exit codes
     0: the plan can be run. 1: it can, and its sets of worlds are not alike.
@@ -319,8 +319,8 @@ class Export:
 class Report:
     """Write the study's report, one HTML file, besides its tables.
 
-    It tells who took part, what was measured by condition, the primary outcome and
-    the secondary ones, corrected, apart from all else that was looked at.
+    It reports the participants, the measures by condition, the primary outcome and
+    the secondary ones, corrected, apart from all exploratory comparisons.
 
     Exit codes
     0: written. 2: a wrong plan, or a damaged record.

@@ -31,7 +31,7 @@ const char* end_of(const std::string& type) {
   return type == "CUE" ? "CUE_END" : nullptr;
 }
 
-/// s, how long it lasted what began in `rows[at]`; n/a if that is not known, 0 for what only
+/// s, duration of the interval that `rows[at]` opens; n/a if that is not known, 0 for what only
 /// happened.
 std::string duration_of(const std::vector<Row>& rows, std::size_t at) {
   const char* end = end_of(rows[at].type);

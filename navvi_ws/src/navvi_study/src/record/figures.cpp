@@ -405,7 +405,7 @@ std::vector<Figure> all_figures() {
        as_summed("stopping_delay_s"), reported},
       {"stopping_spread_s", "s", "its standard deviation", "", as_summed("stopping_spread_s"),
        reported},
-      {"turn_error_rad", "rad", "left of turns that a sound led, mean of the latest", "",
+      {"turn_error_rad", "rad", "residual error of turns that a sound led, mean of the latest", "",
        as_summed("turn_error_rad"), reported},
       {"words_lead", "", "yes where words had taken over, as that was too much", "",
        as_summed("words_lead"), reported},
