@@ -1,4 +1,5 @@
 """A person here, a robot there, and between them a network that delays, cuts and loses packets (far.py). The robot is the simulator."""
+import csv
 import json
 import os
 import re
@@ -93,8 +94,8 @@ def session(tmp_path):
 
 def summary(folder):
     trial = max(folder.glob("trial-*"))
-    lines = (trial / "summary.csv").read_text().splitlines()
-    return dict(zip(lines[0].split(","), lines[1].split(",")))
+    with open(trial / "summary.csv", newline="") as file:
+        return next(csv.DictReader(file))
 
 
 @pytest.mark.parametrize("delay", [0.02, 0.2])
@@ -106,6 +107,10 @@ def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(sessi
     assert 2 * delay <= float(result["round_trip"]) < 2 * delay + 0.3
     log = next(session.folder.glob("session-*.log")).read_text()
     assert ("[connection_slow]" in log) == (delay > 0.15)
+    trial = next(session.folder.glob("trial-*"))
+    assert result["bag"] == "ok" and (trial / "trial.bag").stat().st_size > 1e5, sorted(trial.iterdir())
+    assert not (trial / "trial.bag.txt").exists() and not list((session.folder / ".navvi/bags").iterdir()), "it was fetched from there"
+    assert subprocess.run(["rosbag", "check", str(trial / "trial.bag")], capture_output=True).returncode == 0
 
 
 def test_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session):

@@ -61,6 +61,7 @@ class Start:
         network = Network(address)
         for name in ("parameters", "version"):
             del words[name]
+        words["far"] = "true"
         log = Path.home() / ".navvi" / f"robot-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}.log"
         log.parent.mkdir(0o700, parents=True, exist_ok=True)
         say(f"the robot's side starts; Ctrl-C stops it. To drive, on the person's machine: ./navvi run robot:={address}:{network.port}")

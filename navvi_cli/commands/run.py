@@ -77,6 +77,8 @@ def far_session(given):
     words = words_for(launch_file, [word for word in given if not word.startswith("robot:=")])
     complete(words, ())
     check(words)
+    if not any(word.startswith("trial/record:=") for word in words.parameters):
+        words.parameters.append("trial/record:=robot")
     prepare(words, ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])], [FEEDBACK], check_parameters)
     network = FarNetwork(where)
     words["patience"] = "300"  # over a slow connection nodes take their time to meet

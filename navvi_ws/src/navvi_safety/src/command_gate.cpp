@@ -60,6 +60,7 @@ void CommandGate::receive(const Command& command, const Instant& now) {
     bad_since_valid_ = true;
     return;
   }
+  if (link_meter_.overtaken(command.seq)) return;
   const LinkMeter::Late late = link_meter_.lateness(command.age);
   link_meter_.add(command.age, command.seq, now.wall);
   if (late == LinkMeter::Late::too_late) return;

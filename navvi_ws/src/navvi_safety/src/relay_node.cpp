@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     };
     ros::Subscriber commands = node.subscribe<geometry_msgs::TwistStamped, const Command&>(
         "navvi/command", navvi_safety::kCommandQueue, receive, {},
-        ros::TransportHints().tcpNoDelay());
+        navvi_safety::command_transport());
     ros::Subscriber near;
     if (config.gate.assistance != "off")
       near = navvi_safety::see_by(node, "navvi/proximity", gate, navvi_safety::now);

@@ -98,7 +98,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
 void Guide::Parts::receive(Devices& devices, double time) {
   wire->down.send({std::nullopt, devices.robot}, time);
   wire->down.receive(time, [&](const Wire::Report& report, double sent) {
-    wire->seen = sent;
+    wire->seen = std::max(sent, wire->seen.value_or(sent));
     if (report.message)
       std::visit([&](const auto& value) { take(value, time); }, *report.message);
     else
@@ -181,7 +181,7 @@ Guide::~Guide() = default;
 
 void Guide::take(const Message& message, double time) {
   if (parts_->wire)
-    parts_->wire->down.send({message, std::nullopt}, time);
+    parts_->wire->down.send({message, std::nullopt}, time, 1 + message.index());
   else
     std::visit([&](const auto& value) { parts_->take(value, time); }, message);
 }

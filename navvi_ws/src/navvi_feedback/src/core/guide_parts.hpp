@@ -72,7 +72,8 @@ struct Guide::Parts {
       double seen = 0.0;  ///< s, when the last of the reports that it answers was sent
     };
 
-    explicit Wire(const link::LinkConfig& config) : down(config, 1), up(config, 2) {}
+    explicit Wire(const link::LinkConfig& config)
+        : down(config, 1, 1 + std::variant_size_v<Message>), up(config, 2, 0) {}
 
     link::DelayLine<Report> down;
     link::DelayLine<Sent> up;

@@ -86,7 +86,7 @@ TEST_F(WaitTest, is_not_shown_for_long_when_its_goal_is_gone) {
   pass(5.0);
   EXPECT_FALSE(policy_.order()) << policy_.order()->text;
   follow();
-  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
+  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters, the goal is 20 meters on"});
 }
 
 TEST_F(WaitTest, is_not_over_before_go_on_was_heard_to_its_end) {

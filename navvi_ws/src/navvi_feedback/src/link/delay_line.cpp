@@ -18,19 +18,31 @@ void LinkConfig::describe(navvi_config::Visitor& visit) {
   visit(jitter, "jitter", Range{0.0, 1.0}, "s",
         "mean of what comes on top of it, drawn for each message; none overtakes another");
   visit(loss, "loss", Range{0.0, 0.2}, "",
-        "share of its packets, each of which holds up the stream until it is sent again");
+        "share of its packets; each holds up its topic until it is sent again, but commands");
   visit(outage, "outage", Range{0.0, 30.0}, "s", "for which it is silent once a minute");
 }
 
-double Channel::arrival(double sent) {
+bool Channel::silent(double sent) {
   if (outage_ == 0.0) outage_ = sent + random_.uniform(0.2, 1.0) * kEvery;
   while (sent >= outage_ + config_.outage) outage_ += kEvery;
-  double at = config_.outage > 0.0 && sent >= outage_ ? outage_ + config_.outage : sent;
-  at += config_.delay;
-  if (config_.jitter > 0.0) at -= config_.jitter * std::log(1.0 - random_.uniform(0.0, 1.0));
+  return config_.outage > 0.0 && sent >= outage_;
+}
+
+double Channel::way() {
+  if (config_.jitter == 0.0) return config_.delay;
+  return config_.delay - config_.jitter * std::log(1.0 - random_.uniform(0.0, 1.0));
+}
+
+double Channel::in_stream(double sent) {
+  double at = (silent(sent) ? outage_ + config_.outage : sent) + way();
   if (config_.loss > 0.0 && random_.chance(config_.loss))
     at += std::max(kAgain, 2.0 * config_.delay);
   return last_ = std::max(last_, at);
+}
+
+std::optional<double> Channel::alone(double sent) {
+  if (silent(sent) || (config_.loss > 0.0 && random_.chance(config_.loss))) return std::nullopt;
+  return sent + way();
 }
 
 }  // namespace navvi_feedback::link

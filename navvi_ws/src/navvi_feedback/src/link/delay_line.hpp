@@ -1,37 +1,60 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <iterator>
 #include <navvi_types/random.hpp>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "link/link_config.hpp"
 
 namespace navvi_feedback::link {
 
-/// When what is sent arrives by a stream, as TCP keeps it: in order, and a lost packet holds up
-/// what follows until it is sent again. Times are s of one clock that does not run backwards.
+/// When what is sent arrives. Times are s of one clock that does not run backwards.
 class Channel {
  public:
   Channel(const LinkConfig& config, std::uint64_t seed) : config_(config), random_(seed) {}
 
-  [[nodiscard]] double arrival(double sent);
+  /// By a stream, as TCP keeps it: in order, and a lost packet holds up what follows until it is
+  /// sent again.
+  [[nodiscard]] double in_stream(double sent);
+  /// By a packet of its own, as of UDP. \return nullopt: it is lost
+  [[nodiscard]] std::optional<double> alone(double sent);
 
  private:
+  /// In an outage, which is that of outage_.
+  [[nodiscard]] bool silent(double sent);
+  [[nodiscard]] double way();
+
   LinkConfig config_;
   navvi_types::Random random_;
   double outage_ = 0.0;  ///< s, when the next one begins
-  double last_ = 0.0;    ///< s, of the last arrival
+  double last_ = 0.0;    ///< s, of the last arrival in the stream
 };
 
-/// Hands over values in the order in which they were sent, each when it has arrived.
+/// Hands over values when they have arrived.
 template <typename Value>
 class DelayLine {
  public:
-  DelayLine(const LinkConfig& config, std::uint64_t seed) : channel_(config, seed) {}
+  /// \param streams  each keeps the order in which values were sent, and does not wait for what
+  /// another has lost, as the topics of ROS; 0: each value has a packet of its own, and what a later
+  /// one has overtaken is dropped
+  DelayLine(const LinkConfig& config, std::uint64_t seed, std::size_t streams) : alone_(streams == 0) {
+    for (std::size_t stream = 0; stream < std::max<std::size_t>(1, streams); ++stream)
+      channels_.emplace_back(config, 1000 * seed + stream);
+  }
 
-  void send(Value value, double time) {
-    under_way_.push_back({channel_.arrival(time), time, std::move(value)});
+  void send(Value value, double time, std::size_t stream = 0) {
+    Channel& channel = channels_.at(stream);
+    const auto arrival = alone_ ? channel.alone(time) : std::optional(channel.in_stream(time));
+    if (!arrival) return;
+    auto after = under_way_.end();
+    while (after != under_way_.begin() && std::prev(after)->arrival > *arrival) --after;
+    if (alone_) after = under_way_.erase(after, under_way_.end());
+    under_way_.insert(after, {*arrival, time, std::move(value)});
   }
   /// \param take  called with each value that has arrived, and the time at which it was sent
   template <typename Take>
@@ -45,7 +68,8 @@ class DelayLine {
     double arrival, sent;  ///< s
     Value value;
   };
-  Channel channel_;
+  bool alone_;
+  std::vector<Channel> channels_;
   std::deque<Sent> under_way_;
 };
 

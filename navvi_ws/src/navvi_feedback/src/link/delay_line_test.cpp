@@ -11,7 +11,7 @@ constexpr double kStep = 0.02;  // s
 
 /// s, of each value sent every 20 ms for so long, from sending to arrival.
 std::vector<double> ages(const LinkConfig& config, double seconds) {
-  DelayLine<int> line(config, 1);
+  DelayLine<int> line(config, 1, 1);
   std::vector<double> found;
   int next = 0;
   for (int i = 0; i * kStep < seconds; ++i) {
@@ -45,6 +45,50 @@ TEST(DelayLine, a_lost_packet_holds_up_those_after_it) {
   const auto late = std::count_if(found.begin(), found.end(), [](double age) { return age > 0.1; });
   const auto lost = static_cast<double>(found.size()) * config.loss;
   EXPECT_GT(static_cast<double>(late), 3.0 * lost) << "each holds up some that follow";
+}
+
+TEST(DelayLine, a_lost_packet_holds_up_no_other_stream) {
+  LinkConfig config;
+  config.delay = 0.05;
+  config.loss = 0.02;
+  DelayLine<int> line(config, 1, 8);
+  double last = 0.0, longest_silence = 0.0;
+  std::vector<int> next(8, 0);
+  for (int i = 0; i < 3000; ++i) {
+    const double time = i * kStep;
+    for (int stream = 0; stream < 8; ++stream) line.send(8 * i + stream, time, stream);
+    line.receive(time, [&](int value, double) {
+      EXPECT_EQ(value / 8, next[value % 8]++) << "in order in each stream";
+      longest_silence = std::max(longest_silence, time - last);
+      last = time;
+    });
+  }
+  EXPECT_LT(longest_silence, 0.1);
+}
+
+TEST(DelayLine, values_of_packets_of_their_own_wait_for_none_and_overtake) {
+  LinkConfig config;
+  config.delay = 0.1;
+  config.jitter = 0.05;
+  config.loss = 0.1;
+  config.outage = 3.0;
+  DelayLine<int> line(config, 1, 0);
+  int last = -1, came = 0;
+  double at = 0.0, silence = 0.0;
+  for (int i = 0; i < 6000; ++i) {
+    line.send(i, i * kStep);
+    line.receive(i * kStep, [&](int value, double sent) {
+      EXPECT_GT(value, last) << "none that is older than what was received";
+      EXPECT_LT(i * kStep - sent, 0.6);
+      if (i * kStep - at < 2.5) silence = std::max(silence, i * kStep - at);
+      last = value;
+      at = i * kStep;
+      ++came;
+    });
+  }
+  EXPECT_LT(silence, 0.25);
+  EXPECT_GT(came, 3000);
+  EXPECT_LT(came, 5500);
 }
 
 TEST(DelayLine, jitter_comes_on_top_of_the_delay) {

@@ -15,6 +15,11 @@ class LinkMeter {
 
   /// \param age  s, of a command as it comes \param seq  its number \param time  s, monotonic
   void add(double age, std::uint32_t seq, double time);
+  /// A later command was here first.
+  [[nodiscard]] bool overtaken(std::uint32_t seq) const {
+    constexpr std::uint32_t kClose = 25;  // farther back, the person's side was started anew
+    return !arrivals_.empty() && seq < arrivals_.back().seq && arrivals_.back().seq - seq < kClose;
+  }
   /// How much later than usual, the median of the last 5 s, a command of that age is.
   [[nodiscard]] Late lateness(double age) const;
   /// Of the last command.

@@ -88,7 +88,7 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
   ros::NodeHandle commands_node;
   commands_node.setCallbackQueue(&commands_queue_);
   commands_ = commands_node.subscribe("navvi/command", navvi_safety::kCommandQueue, &SimNode::receive,
-                                      this, ros::TransportHints().tcpNoDelay());
+                                      this, navvi_safety::command_transport());
   if (config_.gate.assistance != "off")
     near_ = navvi_safety::see_by(
         commands_node, config_.sensing == "truth" ? "navvi/proximity" : "navvi/seen/proximity",

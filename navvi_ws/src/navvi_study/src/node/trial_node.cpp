@@ -22,6 +22,7 @@ volatile sig_atomic_t g_stop = 0;
 constexpr double kStep = 0.05;  // s, of the wall timer
 constexpr double kBeat = 0.25;  // s, between two messages of the same state
 constexpr std::uint32_t kQueue = 1000;
+constexpr double kFetch = 120.0;  // s, for a bag to come from the robot's machine
 
 // All but what a replay makes anew of these: the mesh, and most of what moves in the picture.
 constexpr const char* kRecorded[] = {"/clock",
@@ -115,7 +116,9 @@ class TrialNode {
  public:
   /// Puts earlier trials in order. \throws std::runtime_error if `out` cannot be used
   explicit TrialNode(const trial::TrialNodeConfig& config)
-      : recorder_name_(name_of_recorder()), keeper_(named(config), outlets(), now()) {
+      : recorder_name_(name_of_recorder()),
+        far_(config.record == "robot"),
+        keeper_(named(config), outlets(), now()) {
     events_ = node_.advertise<navvi_msgs::TrialEvent>(
         "navvi/events", kQueue, [this](const ros::SingleSubscriberPublisher& link) {
           if (ends_with(link.getSubscriberName(), recorder_name_)) keeper_.recorder_listens(now());
@@ -173,7 +176,11 @@ class TrialNode {
       // As an argument that renames: the bag has what comes seldom under the name that RViz knows.
       topics.push_back(node_.resolveName("navvi/scene_moving") +
                        ":=" + node_.resolveName("navvi/scene_recorded"));
-      return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
+      if (!far_) return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
+      const auto own = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+      return std::make_unique<trial::BagRecorder>(
+          bag, recorder_name_, topics,
+          std::vector<std::string>{(own / "robot_bag").string(), "fetch"}, kFetch);
     };
     return out;
   }
@@ -239,6 +246,7 @@ class TrialNode {
 
   ros::NodeHandle node_;
   std::string recorder_name_;
+  bool far_;  ///< the bag is recorded on the robot's machine
   ros::Publisher events_;
   ros::Publisher goals_;
   ros::Publisher state_;

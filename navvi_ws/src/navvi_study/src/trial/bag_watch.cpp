@@ -17,7 +17,6 @@ constexpr double kStart = 60.0;  // s, for the recorder to listen: it asks the m
 constexpr double kSettle = 0.5;  // s, for links to come up before the first event
 constexpr double kStill = 10.0;  // s, without growth; a compressed bag grows by whole chunks
 constexpr double kHalted = 2.0;  // s, in which a recorder may be stopped by a signal
-constexpr double kClose = 8.0;   // s, for the recorder to close the bag
 
 }  // namespace
 
@@ -29,13 +28,14 @@ constexpr std::uintmax_t kEmptyBag = 4117;  // bytes, a bag's header alone
 }  // namespace
 
 BagRecorder::BagRecorder(const fs::path& bag, const std::string& node_name,
-                         const std::vector<std::string>& topics, const std::string& program)
-    : bag_(bag) {
+                         const std::vector<std::string>& topics,
+                         const std::vector<std::string>& program, double patience)
+    : bag_(bag), patience_(patience) {
   // Small chunks lose little when the recorder is killed; the default min-space leaves an empty bag
   // and success behind.
-  std::vector<std::string> words = {
-      program,           "-q",           "-O",   bag.string(), "--chunksize=64",
-      "--min-space=50M", "--tcpnodelay", "--bz2"};
+  std::vector<std::string> words = program;
+  words.insert(words.end(), {"-q", "-O", bag.string(), "--chunksize=64", "--min-space=50M",
+                             "--tcpnodelay", "--bz2"});
   words.insert(words.end(), topics.begin(), topics.end());
   words.push_back("__name:=" + node_name);
   std::vector<char*> arguments;
@@ -55,7 +55,7 @@ BagRecorder::BagRecorder(const fs::path& bag, const std::string& node_name,
   ::signal(SIGTERM, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_RDWR);  // it lists its topics in spite of -q
   ::dup2(nowhere, STDOUT_FILENO);
-  ::execv(program.c_str(), arguments.data());
+  ::execv(arguments[0], arguments.data());
   ::_exit(127);
 }
 
@@ -141,7 +141,7 @@ bool BagWatch::growing(double time) {
 bool BagWatch::close(double age, double tail) {
   if (!recorder_ || !recorder_->running()) return true;
   if (age >= tail) recorder_->stop();
-  if (age > tail + kClose) recorder_->kill();
+  if (age > tail + recorder_->patience()) recorder_->kill();
   return false;
 }
 

@@ -14,10 +14,12 @@ namespace navvi_study::trial {
 class BagRecorder {
  public:
   /// Starts recording `topics` into `bag` (a path that ends in .bag). \param node_name  the
-  /// recorder's name in the graph
+  /// recorder's name in the graph \param program  and the words before those of rosbag's record
+  /// \param patience  s, in which it closes a bag
   BagRecorder(const std::filesystem::path& bag, const std::string& node_name,
               const std::vector<std::string>& topics,
-              const std::string& program = "/usr/lib/rosbag/record");
+              const std::vector<std::string>& program = {"/usr/lib/rosbag/record"},
+              double patience = 8.0);
   /// Stops it; kills it if it does not stop within two seconds.
   ~BagRecorder();
   BagRecorder(const BagRecorder&) = delete;
@@ -34,9 +36,11 @@ class BagRecorder {
   void kill();
   /// It was asked to stop, did so by itself, and left a bag that is not empty.
   [[nodiscard]] bool closed_well();
+  [[nodiscard]] double patience() const { return patience_; }
 
  private:
   std::filesystem::path bag_;
+  double patience_;  ///< s
   pid_t child_ = -1;
   bool asked_ = false;
   int status_ = -1;

@@ -20,7 +20,8 @@ class Bag : public testing::Test {
     const fs::path program = folder_.write("record", "#!/bin/sh\n" + script + "\n");
     fs::permissions(program, fs::perms::owner_all);
     return std::make_unique<BagRecorder>(folder_ / "trial.bag", "recorder",
-                                         std::vector<std::string>{}, program.string());
+                                         std::vector<std::string>{},
+                                         std::vector<std::string>{program.string()});
   }
   /// The other process is waited for; no time is measured.
   static bool becomes(const std::function<bool()>& done) {

@@ -1,5 +1,7 @@
 #include "trial/trial_flow.hpp"
 
+#include <algorithm>
+
 namespace navvi_study::trial {
 namespace {
 
@@ -35,10 +37,11 @@ std::optional<std::int64_t> TrialFlow::deadline() const {
   return start_ + limit_;
 }
 
-std::optional<Ending> TrialFlow::watch(const Signs& signs) const {
+std::optional<Ending> TrialFlow::watch(const Signs& signs) {
+  clock_ = std::max(clock_, signs.now);
   if (signs.disk_full) return Ending{"invalid", "disk_full", signs.latest};
   if (signs.world_restarted) return Ending{"aborted", "simulator_restarted", signs.latest};
-  if (signs.clock_jumped || signs.now + kTimeBack < signs.latest)
+  if (signs.clock_jumped || signs.now + kTimeBack < clock_)
     return Ending{"aborted", "time_went_back", signs.latest};
   if (signs.odometry_silence > kSimulatorLost)
     return Ending{"aborted", "simulator_lost", signs.latest};

@@ -52,10 +52,14 @@ class TrialFlow {
   explicit TrialFlow(double limit) : limit_(static_cast<std::int64_t>(limit * 1e9)) {}
 
   /// \param stamp  ns, ROS time
-  void start(std::int64_t stamp) { start_ = stamp; }
+  void start(std::int64_t stamp) {
+    start_ = stamp;
+    clock_ = 0;
+  }
   /// ns of ROS time, when time is up
   [[nodiscard]] std::optional<std::int64_t> deadline() const;
-  [[nodiscard]] std::optional<Ending> watch(const Signs& signs) const;
+  /// A clock that comes late by another connection than the reports is not one that goes back.
+  [[nodiscard]] std::optional<Ending> watch(const Signs& signs);
   /// The reason of a trial that is ended by a signal: a part that had been silent before, else the
   /// signal. roslaunch ends a session whose simulator has crashed just as one that a hand stops.
   [[nodiscard]] static std::string reason_of_stop(const Signs& signs);
@@ -66,6 +70,7 @@ class TrialFlow {
  private:
   std::int64_t limit_;
   std::int64_t start_ = 0;
+  std::int64_t clock_ = 0;  ///< ns, the latest ROS time of the trial
 };
 
 }  // namespace navvi_study::trial

@@ -46,6 +46,7 @@ TEST(TrialFlow, each_loss_ends_the_trial_with_its_own_reason) {
       {"feedback_lost", [](Signs& signs) { signs.feedback_silence = 6.0; }},
       {"operator_lost", [](Signs& signs) { signs.operator_silence = 11.0; }},
   };
+  EXPECT_FALSE(flow.watch(at(20.0)));
   for (const auto& [reason, lose] : losses) {
     Signs signs = at(20.0);
     lose(signs);
@@ -55,6 +56,14 @@ TEST(TrialFlow, each_loss_ends_the_trial_with_its_own_reason) {
     EXPECT_EQ(ending->result, reason == "disk_full" ? "invalid" : "aborted");
     EXPECT_EQ(ending->stamp, signs.latest);
   }
+}
+
+TEST(TrialFlow, takes_a_clock_that_comes_later_than_the_reports_for_no_other_time) {
+  TrialFlow flow(0.0);
+  flow.start(10 * kSecond);
+  Signs signs = at(20.0);
+  signs.latest += 5 * kSecond;
+  EXPECT_FALSE(flow.watch(signs));
 }
 
 TEST(TrialFlow, a_goal_reached_just_before_another_end_counts_but_not_with_holes_in_the_record) {

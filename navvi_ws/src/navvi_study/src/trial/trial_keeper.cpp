@@ -205,7 +205,7 @@ void TrialKeeper::arm() {
     return leave(3);
   }
   kept_.bag = BagWatch(
-      config_.record ? outlets_.start_recorder(kept_.folder / "trial.bag") : nullptr, now_.wall());
+      config_.record != "none" ? outlets_.start_recorder(kept_.folder / "trial.bag") : nullptr, now_.wall());
   kept_.bag_lost = false;
   enter(Phase::armed);
   shown_.said = phase_since_;

@@ -27,7 +27,7 @@ class Trials : public testing::Test {
  protected:
   Trials() {
     config_.out = folder_.string();
-    config_.record = false;
+    config_.record = "none";
     config_.operator_kind = "keyboard";
   }
   void begin() {
@@ -47,7 +47,7 @@ class Trials : public testing::Test {
       const fs::path program = folder_.write("record", "#!/bin/sh\nexec sleep 60\n");
       fs::permissions(program, fs::perms::owner_all);
       return std::make_unique<BagRecorder>(bag, "recorder", std::vector<std::string>{},
-                                           program.string());
+                                           std::vector<std::string>{program.string()});
     };
     navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
     calls.write = [this, write = calls.write](int file, const void* bytes, std::size_t count) {
@@ -543,7 +543,7 @@ TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_f
 }
 
 TEST_F(Trials, go_on_without_their_bag_when_it_does_not_grow_and_say_so) {
-  config_.record = true;
+  config_.record = "here";
   offer();
   live(1.0);
   keeper_->recorder_listens(now());

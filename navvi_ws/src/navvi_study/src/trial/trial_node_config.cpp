@@ -63,7 +63,9 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(once, "once", Any{}, "", "end after one trial");
   visit(press_to_start, "press_to_start", Any{}, "",
         "a trial begins when the person presses the button for it, and the stick drives from then");
-  visit(record, "record", Any{}, "", "keep a bag of each trial");
+  visit(record, "record", OneOf{{"here", "robot", "none"}}, "",
+        "where a bag of each trial is recorded; robot: on the robot's machine, and fetched after "
+        "the trial");
   visit(tail, "tail", Range{0.0, 60.0}, "s", "the bag goes on after the end, for the last words");
   visit(odom_frame, "odom_frame", Any{}, "", "frame of the odometry; its parent is the map's");
   visit(locked, "locked", Any{}, "",

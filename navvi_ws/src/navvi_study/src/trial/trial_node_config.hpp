@@ -47,7 +47,7 @@ struct TrialNodeConfig {
   std::vector<std::string> require;
   bool once = true;
   bool press_to_start = false;
-  bool record = true;
+  std::string record = "here";
   double tail = 4.0;
   std::string odom_frame = "odom";
   bool locked = false;
