@@ -165,7 +165,7 @@ def test_a_questionnaire_is_answered_by_the_pad_and_each_answer_is_saved_at_once
 
 def test_a_direction_is_pointed_at_with_the_stick_in_a_file_as_a_study_writes_it(session, tmp_path):
     asked, record = tmp_path / "asked.yaml", tmp_path / "answers.csv"
-    probe = questionnaire.load(questionnaire.SHIPPED[0] / "probe.yaml")
+    probe = questionnaire.load(questionnaire.SHIPPED / "probe.yaml")
     asked.write_text(questionnaire.script(probe.items, probe.title, probe.intro))
     pad = session("_lesson:=questionnaire", f"_questions:={asked}", f"_record:={record}")
     pad.until(lambda: pad.said[-1:] == [probe.items[0].ask])

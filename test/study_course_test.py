@@ -40,13 +40,13 @@ def test_a_person_is_not_led_through_a_whole_study_at_once(tmp_path):
     kept = study.Study(small(tmp_path, ("operator: simulated", "operator: pad")))
     kept.freeze("test", None)
     with pytest.raises(StudyError, match='"pad"; study run is for simulated'):
-        actions.Run.run(type("Args", (), {"plan": kept.plan.file, "only": None}))
+        actions.run(type("Args", (), {"plan": kept.plan.file, "only": None}))
 
 
 def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(work):
     begun = work("aborted")
     assert rest(begun)[:2] == ["s1-c1-trial-1", "s1-c1-trial-1"]
-    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 11)]
+    assert begun.runner.driven[:2] == [("easy", 1), ("easy", 11)]
     rows = table.trials(work.study, work.study.progress())
     assert [(row["attempt"], row["counts"], row["excluded"], row["replaces"]) for row in rows[:2]] == [
         ("1", "no", "the trial broke off", "n/a"), ("2", "yes", "n/a", "trial-1")]
@@ -92,7 +92,7 @@ def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, 
     assert shown == {"reached": {"full": (6, 1.0), "plain": (6, 0.667)}, "drop_out": {"full": (6, 0.0), "plain": (6, 0.333)},
                      "collisions": {"full": (6, 3.0), "plain": (4, 3.0)}}
     name = next(row["trial"] for row in rows if row["counts"] == "drop-out")
-    actions.Exclude.run(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
+    actions.exclude(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
     begun = session.Session(kept, driver, say=said.append, wait=False)
     assert len(rest(begun, "sub-01")) == 1 and driver.driven[-1] == ("sub-01", 11)
 
@@ -107,7 +107,7 @@ def test_trials_that_broke_off_count_in_no_plan(tmp_path):
 def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, capsys):
     plan = small(tmp_path)
     actions.TOOLS["version"] = lambda: "test"
-    actions.Freeze.run(type("Args", (), {"plan": plan.file, "reason": None}))
+    actions.freeze(type("Args", (), {"plan": plan.file, "reason": None}))
     printed = capsys.readouterr().out
     for line in overview.broken_off(plan):
         assert line in printed and line in overview.schedule(plan)
@@ -121,13 +121,13 @@ def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, mo
     (tmp_path / "hall.sdf").write_text(hall.format(""))
     plan = small(tmp_path, ("a: {world: easy", "a: {world: hall.sdf"))
     args = type("Args", (), {"plan": plan.file, "reason": None, "no_worlds": False, "pictures": False})
-    for action in actions.Check, actions.Freeze:
+    for action in actions.check, actions.freeze:
         with pytest.raises(StudyError) as problem:
-            action.run(args)
+            action(args)
         assert "nothing stands in" in str(problem.value) and str(tmp_path / "hall.sdf") in str(problem.value)
     (tmp_path / "hall.sdf").write_text(hall.format("<model name='box'><static>1</static><pose>3 0 .5 0 0 0</pose><link name='l'><collision name='c'>"
                                                    "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model>"))
-    actions.Freeze.run(args)
+    actions.freeze(args)
     assert study.Study.of(plan.file).progress().freezes
 
 
@@ -157,7 +157,7 @@ def test_where_no_trial_began_the_same_world_comes_again(work):
     begun = work("none")
     assert begun.next("sub-01") is None
     assert rest(begun)[0] == "s1-c1-trial-1"
-    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 1)]
+    assert begun.runner.driven[:2] == [("easy", 1), ("easy", 1)]
 
 
 def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):
@@ -173,12 +173,12 @@ def test_exclusions_are_rows_and_nothing_is_deleted(work, capsys):
     rest(work())
     before = work.study.journal.path.read_bytes()
     args = type("Args", (), {"plan": work.study.plan.file, "what": "sub-01/trial-1", "reason": "the phone rang", "no_replacement": False})
-    actions.Exclude.run(args)
+    actions.exclude(args)
     assert work.study.journal.path.read_bytes().startswith(before)
     with pytest.raises(StudyError, match="excluded already"):
-        actions.Exclude.run(args)
+        actions.exclude(args)
     begun = work()
-    assert rest(begun) == ["s1-c1-trial-1"] and begun.driver.driven == [("easy", 11)]
+    assert rest(begun) == ["s1-c1-trial-1"] and begun.runner.driven == [("easy", 11)]
     row = work.study.journal.rows()[-3]
     assert row["type"] == "exclude" and row["reason"] == "the phone rang" and row["by"] == getpass.getuser()
 
@@ -287,10 +287,10 @@ while true; do sleep 0.1; done
         work().next("sub-01")
     begun = time.monotonic()
     args = type("Args", (), {"plan": work.study.plan.file, "participant": "sub-01"})
-    actions.Stop.run(args)
+    actions.stop(args)
     assert time.monotonic() - begun < 5 and (tmp_path / "ended").exists() and f"{orphan} (navvi)" in capsys.readouterr().out
     child.join()
-    actions.Stop.run(args)
+    actions.stop(args)
     assert "nothing of sub-01 is running" in capsys.readouterr().out
     assert rest(work())[0] == "s1-c1-trial-1"
 
@@ -353,7 +353,7 @@ def test_a_full_disk_begins_nothing(work, monkeypatch):
     with pytest.raises(StudyError, match="cannot be written"):
         begun.next("sub-01")
     monkeypatch.undo()
-    assert begun.driver.driven == []
+    assert begun.runner.driven == []
     assert rest(begun)[0] == "s1-c1-trial-1"
 
 

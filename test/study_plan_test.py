@@ -1,13 +1,15 @@
 """Studies without a session: the design, the plan and what is refused in it, the schedule."""
 import collections
+import hashlib
 import itertools
 import time
 
 import pytest
 
 from small_study import Driver, EXAMPLE, PACKAGE, rest, small
-from navvi_study import design, overview, plan_file, probe, progress, questionnaire, runner, schedule, session, study  # noqa: E402
+from navvi_study import checked, design, overview, plan_file, preregistration, progress, questionnaire, report, runner, schedule, session, steps, study, worlds  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
+from navvi_study.steps.step import Step  # noqa: E402
 
 # The design.
 
@@ -51,8 +53,6 @@ DRAWN = ("limit: 60", "limit: 60\norder: drawn")
 
 
 def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it_is_due(tmp_path):
-    import hashlib
-    from navvi_study import preregistration, report
     plan = small(tmp_path, DRAWN)
     shown = "\n".join(overview.schedule(plan))
     assert "sub-02" not in shown and "it is one of: full, plain; plain, full." in shown
@@ -130,7 +130,6 @@ def test_the_example_can_be_checked_and_nobody_meets_a_world_twice():
 
 
 def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
-    from navvi_study import preregistration
     kept = study.Study(small(tmp_path, ("[plain, full]}", "[plain, full], equivalent_within: 5}, exposure: path, secondary: [{measure: collisions, conditions: [plain, full]}]")))
     kept.freeze("0.1.0", None)
     text = preregistration.write(kept).read_text()
@@ -172,11 +171,46 @@ def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
 def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
     kept = study.Study(small(tmp_path))
     step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.condition == "plain" and step.kind == "trial")
-    attempt = progress.Attempt(step.name, 1, "easy", 2, "", 0)
+    attempt = progress.Attempt(step.name, 1, "easy", 2)
     words = runner.LiveRunner(kept, "navvi", "close_trials").arguments("sub-01", step, attempt, tmp_path)
     assert words["feedback/haptics/enabled"] == "false" and words["feedback/sounds/enabled"] == "true"
     assert words["feedback/locked"] == words["trial/locked"] == "true"
     assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
+
+
+def test_a_new_kind_of_step_is_one_class(tmp_path, monkeypatch):
+    class Hearing(Step):
+        kind = key = "hearing"
+        words = "the hearing test"
+        usual = 4.0
+
+        @classmethod
+        def entry(cls, part, folder):
+            return {"tones": part.take("tones", checked.whole(1, 9))}
+
+        @classmethod
+        def registered(cls, plan):
+            return [("Measures", f"Hearing: {plan.hearing.tones} tones.")]
+
+        @classmethod
+        def planned(cls, place):
+            return [cls.at(place, "hearing")] if place.plan.steps["hearing"] else []
+
+        def run(self, session, progress, person, lock):
+            return session.done(person.name, self, heard=session.study.plan.steps["hearing"]["tones"])
+    before = small(tmp_path).hash()
+    monkeypatch.setitem(steps.ORDER, "begin", (*steps.ORDER["begin"], Hearing))
+    for module in (plan_file, preregistration):
+        monkeypatch.setattr(module, "KINDS", (*steps.KINDS, Hearing))
+    assert small(tmp_path).hash() == before, "plans without keep their hash"
+    with pytest.raises(StudyError, match="\"hearing/tones\" is 0; allowed is a whole number from 1 to 9"):
+        small(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 0}"))
+    kept = study.Study(small(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 3}\nminutes: {hearing: 2}")))
+    kept.freeze("test", None)
+    assert "  s1-hearing: the hearing test, about 2 min" in overview.schedule(kept.plan)
+    assert "- Hearing: 3 tones.\n" in preregistration.write(kept).read_text()
+    assert rest(session.Session(kept, Driver(kept), say=lambda line: None))[:2] == ["s1-hearing", "s1-c1-trial-1"]
+    assert kept.progress().people["sub-01"].done["s1-hearing"]["heard"] == 3
 
 
 def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
@@ -187,7 +221,6 @@ def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
 
 
 def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path):
-    from navvi_study import worlds
     plan = small(tmp_path)
 
     def compared(**second):

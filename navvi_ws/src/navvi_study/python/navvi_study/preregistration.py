@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 from . import overview
 from .measures import EXPOSURES, LEAST, MEASURES, RESAMPLES
+from .steps import KINDS
 from .study import write_safely
 
 MODELS = {
@@ -29,7 +30,7 @@ def page(plan, freezes):
     """Lines of Markdown."""
     outcomes = [plan.primary, *plan.secondary]
     kinds = {MEASURES[one.measure].kind for one in outcomes if not getattr(one, "within", 0)}
-    practice, per_trial = plan.practice, EXPOSURES[plan.exposure][0]
+    per_trial = EXPOSURES[plan.exposure][0]
     sections = {
         "Hypotheses": [
             f"Primary: {hypothesis(plan.primary)}", *[f"Secondary: {hypothesis(one)}" for one in plan.secondary],
@@ -37,9 +38,7 @@ def page(plan, freezes):
         "Design": [
             "Each participant drives in all conditions of the group.", *overview.conditions(plan), *overview.balance(plan),
             f"Each condition has a set of {len(plan.sets[0])} worlds; sets go round the conditions by a Latin square. A trial ends at the goal or after {plan.limit:g} s.",
-            f"Sessions: {plan.sessions}. Calibration: {'yes' if plan.calibrate else 'no'}. Learning of a person's delay: {plan.learning}.",
-            *([f"Practice before each {practice.before}, until {practice.in_a_row} in a row reach the goal with collisions of at most {practice.collisions}, "
-               f"or {practice.most} were driven."] if practice else [])],
+            f"Sessions: {plan.sessions}. Calibration: {'yes' if plan.calibrate else 'no'}. Learning of a person's delay: {plan.learning}."],
         "Participants": [
             *[f"Group {group.name}: {len(group.participants)}, in the conditions {', '.join(group.conditions)}." for group in plan.groups],
             f"Nobody begins once {plan.stop_after} have completed the study." if plan.stop_after else "The study ends when all have taken part.",
@@ -47,8 +46,7 @@ def page(plan, freezes):
         "Measures": [
             *dict.fromkeys(f"{MEASURES[one.measure].label}, {per_trial if MEASURES[one.measure].kind == 'count' else MEASURES[one.measure].unit}, "
                            f"of {MEASURES[one.measure].of}." for one in outcomes),
-            *[f"Questionnaire: {one.title}." for one in (*plan.at_begin, *plan.after_condition, *plan.at_end)],
-            *(["Probes: a trial in each condition that stops unannounced, and questions about it."] if plan.probes else [])],
+            *[f"Questionnaire: {one.title}." for one in (*plan.at_begin, *plan.after_condition, *plan.at_end)]],
         "Analysis": [
             *[words for kind, words in MODELS.items() if kind in kinds],
             *([EQUIVALENCE] if any(getattr(one, "within", 0) for one in outcomes) else []),
@@ -59,6 +57,8 @@ def page(plan, freezes):
         "Exclusions": overview.broken_off(plan),
         "Changes since the plan was frozen first": [f"{row['utc'][:10]}, {row['reason']}: {change}" for row in freezes for change in row["changes"]],
     }
+    for section, sentence in (told for kind in KINDS for told in kind.registered(plan)):
+        sections[section].append(sentence)
     lines = [f"# {plan.title}: pre-registration", "",
              f"Study {plan.study}; the plan was frozen on {freezes[-1]['utc'][:10]} as {freezes[-1]['plan']}, with NavVI {freezes[-1]['version']}."]
     for heading, sentences in sections.items():

@@ -10,8 +10,9 @@ import jinja2
 from . import figures, overview, preregistration, table, ways
 from .analysis import Analysis
 from .measures import MEASURES, REACHED, RESAMPLES, number
-from .session import why_nothing
 from .questionnaire import DECLINED
+from .session import why_nothing
+from .steps import KINDS
 from .study import write_safely
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
@@ -116,7 +117,7 @@ def driven(progress, kind):
 
 
 def besides(progress):
-    counts = [(len(driven(progress, kind)), words) for kind, words in (("practice", "of practice"), ("probe", "with a probe"))]
+    counts = [(len(driven(progress, kind.kind)), kind.besides) for kind in KINDS if kind.besides]
     return ", ".join(f"{count} {words}" for count, words in counts if count)
 
 

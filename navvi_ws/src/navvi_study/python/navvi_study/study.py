@@ -158,7 +158,8 @@ class Study:
 
     def agreed(self, participant, item):
         """Whether the last answer to the item of the consent is yes."""
-        given = [row["answer"] for row in self.answers(participant) if self.plan.consent and (row["questionnaire"], row["item"]) == (self.plan.consent.name, item)]
+        consent = self.plan.steps["consent"]
+        given = [row["answer"] for row in self.answers(participant) if consent and (row["questionnaire"], row["item"]) == (consent.name, item)]
         return given[-1:] == ["yes"]
 
     def note(self, participant, attempt, row):
