@@ -6,8 +6,8 @@ import time
 
 import pytest
 
-from small_study import Driver, EXAMPLE, PACKAGE, rest, small
-from navvi_study import checked, design, overview, plan_file, preregistration, progress, questionnaire, report, runner, schedule, session, steps, study, worlds  # noqa: E402
+from small_study import EXAMPLE, PACKAGE, begin, frozen, rest, small
+from navvi_study import checked, design, overview, plan_file, preregistration, progress, questionnaire, report, runner, schedule, steps, study, worlds  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
 from navvi_study.steps.step import Step  # noqa: E402
 
@@ -68,7 +68,7 @@ def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it
     assert "next is s1-c1-trial-1." in waiting and "in full" not in waiting and "in plain" not in waiting
     assert "printed here once" in report.opening(kept.progress())
     for name in plan.participants:
-        rest(session.Session(kept, Driver(kept), say=lambda line: None, wait=False), name)
+        rest(begin(kept), name)
     assert f"drawn by the seed {seed}" in report.opening(kept.progress())
     (tmp_path / "small/allocation.seed").write_text("another")
     with pytest.raises(StudyError, match="allocation.seed is missing or changed since the plan was frozen"):
@@ -205,11 +205,10 @@ def test_a_new_kind_of_step_is_one_class(tmp_path, monkeypatch):
     assert small(tmp_path).hash() == before, "plans without keep their hash"
     with pytest.raises(StudyError, match="\"hearing/tones\" is 0; allowed is a whole number from 1 to 9"):
         small(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 0}"))
-    kept = study.Study(small(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 3}\nminutes: {hearing: 2}")))
-    kept.freeze("test", None)
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 3}\nminutes: {hearing: 2}"))
     assert "  s1-hearing: the hearing test, about 2 min" in overview.schedule(kept.plan)
     assert "- Hearing: 3 tones.\n" in preregistration.write(kept).read_text()
-    assert rest(session.Session(kept, Driver(kept), say=lambda line: None))[:2] == ["s1-hearing", "s1-c1-trial-1"]
+    assert rest(begin(kept))[:2] == ["s1-hearing", "s1-c1-trial-1"]
     assert kept.progress().people["sub-01"].done["s1-hearing"]["heard"] == 3
 
 
