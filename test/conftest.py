@@ -5,6 +5,7 @@ import time
 
 import pytest
 
+import sessions
 from display import Display
 
 
@@ -50,3 +51,16 @@ def desktop(master):
         windows.terminate()
         windows.wait()
         display.close()
+
+
+@pytest.fixture
+def session(tmp_path):
+    """session(WORDS, of the environment VARIABLES) begins `./navvi run`; it ends with the test."""
+    begun = []
+
+    def begin(*words, **variables):
+        begun.append(sessions.Session(tmp_path, *words, **variables))
+        return begun[-1]
+    yield begin
+    for one in begun:
+        one.__exit__()

@@ -1,9 +1,7 @@
 """The keyboard as a stick, under a window manager, with keys pressed as a person presses them."""
 import contextlib
-import csv
 import ctypes
 import os
-import pathlib
 import signal
 import subprocess
 import time
@@ -11,8 +9,7 @@ import time
 import pytest
 
 from display import Display
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import ROOT, eventually, rows_of
 
 # How xdotool finds a window, and a word of its title.
 KEYS = ("--class", "key_window", "NavVI")
@@ -77,8 +74,7 @@ class Keys:
         assert eventually(activate, seconds), f"{window} does not get the focus"
 
     def rows(self, name):
-        with open(self.folder / name) as file:
-            return list(csv.DictReader(file))
+        return rows_of(self.folder / name)
 
     def command(self, field="linear.x"):
         """m/s or rad/s, of the last command."""
@@ -113,15 +109,6 @@ class Keys:
             process.terminate()
             process.wait(20)
         self.display.close()
-
-
-def eventually(condition, seconds=15):
-    deadline = time.monotonic() + seconds
-    while time.monotonic() < deadline:
-        if condition():
-            return True
-        time.sleep(0.05)
-    return False
 
 
 @contextlib.contextmanager

@@ -2,7 +2,6 @@
 import collections
 import hashlib
 import itertools
-import time
 
 import pytest
 

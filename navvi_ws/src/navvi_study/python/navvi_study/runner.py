@@ -9,7 +9,6 @@ import zlib
 from . import questionnaire
 from .errors import StudyError
 from .journal import utc_now
-from .plan import shown
 from .study import write_safely
 
 DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; p: pause after this step; a: end the trial now."
