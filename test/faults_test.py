@@ -24,7 +24,7 @@ def run(session):
     def begin(*words, **variables):
         begun = session(f"world:={WORLD}", "seed:=3", *words, **variables)
         begun.wait_until_begun()
-        time.sleep(2.0)
+        begun.sleep(2.0)
         return begun
     return begin
 

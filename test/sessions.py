@@ -107,6 +107,16 @@ class Session(Programs):
     def wait_until_begun(self):
         self.wait_until(lambda: "has begun" in self.text(), 300, "a trial begins")
 
+    def simulated(self):
+        """s of the trial's own time."""
+        times = [int(stamp) for journal in self.folder.glob("trial-*/journal.csv") for stamp in re.findall(r"^[^,\n]*,\d+,(\d+),", journal.read_text(), re.M)]
+        return (times[-1] - times[0]) / 1e9 if times else 0.0
+
+    def sleep(self, seconds):
+        """In the trial's own time."""
+        end = self.simulated() + seconds
+        self.wait_until(lambda: self.simulated() >= end, 60, f"{seconds} s have been simulated")
+
     def wait_until_ended(self, seconds=300):
         """Returns what was said."""
         self.process.wait(seconds)
