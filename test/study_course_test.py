@@ -56,7 +56,7 @@ RULE = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial 
 
 
 @pytest.mark.parametrize("results, reasons", [(["invalid"], ["its record is not whole"]), (["aborted", "refused"], ["it broke off"] * 2)])
-def test_trials_that_broke_off_and_records_that_are_not_whole_count_in_no_plan(tmp_path, results, reasons):
+def test_trials_that_broke_off_count_in_no_plan(tmp_path, results, reasons):
     kept = frozen(tmp_path, (RULE, ""))
     rest(begin(kept, *results))
     assert [(row["counts"], row["excluded"]) for row in table.trials(kept, kept.progress())] == [("no", reason) for reason in reasons] + [("yes", "n/a")] * 2

@@ -99,6 +99,7 @@ def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it
     ("measure: time", "measure: sus", "does not ask sus"),
     ("{after_condition: [tlx]}", "{at_begin: [about_you]}", "needs \"yes\" to the item describe of the consent; the consent's items with a yes are: none"),
     ("measure: time", "equivalent_within: 0, measure: time", "\"outcomes/primary/equivalent_within\" is 0; allowed is a number from 1e-06"),
+    ("measure: time", "sd: 3, measure: time", "needs \"sd\" with one of the keys \"effect\" and \"equivalent_within\""),
     ("outcomes: {", "outcomes: {exposure: way, ", "\"outcomes/exposure\" is \"way\"; allowed is one of: trial, time, path"),
     ("[tlx]", "[txl]", "allowed are files in"),
     ("column: result, is: [aborted, invalid]", "column: result", "needs one of the keys"),
@@ -145,6 +146,16 @@ def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
     changed.freeze("0.1.0", "too short")
     text = preregistration.write(changed).read_text()
     assert ", too short: limit: 60.0 is now 90.0" in text and "full and plain differ." in text and "after 90 s" in text
+
+
+@pytest.mark.parametrize("keys, words", [
+    # (1.960 + 0.842)^2 (8 / 5)^2 + 1.960^2 / 2 = 22.01, and 28.8 with 1.282; of equivalence with 1.645 and 1.282, 23.3, and with 1.645 29.1.
+    ("effect: 5, sd: 8", "a difference of 5 (s), where participants' differences have an SD of 8, is shown with 80 % power by 23 participants, with 90 % by 29; 4 are planned."),
+    ("equivalent_within: 5, sd: 8", "equivalence within 5 (s), where participants' differences have an SD of 8, is shown with 80 % power by 24 participants, with 90 % by 30; 4 are planned.")])
+def test_a_pre_registration_has_the_sample_size_of_the_plans_effect_and_variance(tmp_path, keys, words):
+    kept = frozen(tmp_path, ("full]}}", f"full], {keys}}}}}"))
+    assert f"- Sample size: {words}\n" in preregistration.write(kept).read_text()
+    assert "sd" not in small(tmp_path).values()["primary"], "plans without keep their hash"
 
 
 def test_every_questionnaire_that_ships_can_be_spoken_and_scored():

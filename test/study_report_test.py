@@ -1,5 +1,6 @@
 """Studies without a session: the report, and the models behind it."""
 import html.parser
+import re
 import warnings
 
 import numpy as np
@@ -183,6 +184,17 @@ def test_an_interval_and_a_p_that_differ_are_said_in_words(reported, monkeypatch
     monkeypatch.setitem(analysis.MODELS, "time", lambda result, values, differences: setattr(result, "p", p))
     one = Analysis(kept, kept.progress()).contrast("time", "plain", "full")
     assert one.high < 0 and (words in one.note if words else one.note == "")
+
+
+def test_a_blinded_report_has_letters_and_tells_no_condition(reported):
+    kept, _ = reported
+    blinded = kept.blinded()
+    text = Page(report.page(blinded, blinded.progress(), rehearsed=False)).text
+    assert not {"full", "plain"} & set(re.findall(r"\w+", text)) and "no touch" not in text
+    assert re.search("In condition B, participants took 18 s (less|more) than in A", text) and "B minus A" in text
+    assert "report small.yaml --blind" in text and {row["condition"] for row in blinded.answers("sub-01")} == {"A", "B"}
+    assert sorted(kept.blinded().letters.items()) == sorted(blinded.letters.items()), "the key is kept"
+    assert kept.plan.values() == study.Study(kept.plan).plan.values() and blinded.progress().complete(blinded.progress().person("sub-01"))
 
 
 def test_the_same_study_gives_the_same_report(reported):

@@ -47,6 +47,18 @@ def test_journal_bag_and_table_are_held_against_each_other(work, tmp_path):
     assert differ == 1 and "bag differs: elapsed_s is 1 in the summary and 2 in the recount" in sentences[0] and "journal equal" in sentences[0]
 
 
+def test_a_file_that_changed_after_its_trial_is_named(work):
+    rest(work())
+    attempt, trial = trial_of(work.study)
+    sentences, bad = verify.verify(work.study, work.study.progress(), "true")
+    assert bad == 0 and sentences[0] == f"sub-01/{attempt.trial}: files equal, journal no journal, bag no bag, table equal."
+    (trial / "summary.csv").write_text((trial / "summary.csv").read_text().replace("20.0", "19.0"))
+    sentences, bad = verify.verify(work.study, work.study.progress(), "true")
+    assert bad == 1 and "files differ: summary.csv," in sentences[0]
+    attempt.sums = {}
+    assert verify._files(trial, attempt) == "no sums", "as in journals of before"
+
+
 def test_a_trial_whose_bag_is_recorded_as_bad_agrees_without_one(tmp_path):
     assert "recorded as bad" in verify._bag(None, tmp_path, {"bag": "bad"})
     assert verify._bag(None, tmp_path, {"bag": "ok"}) == "is missing"

@@ -224,8 +224,9 @@ def table(args):
 def verify(args):
     """Count each trial's summary again, from its journal and from its bag.
 
-    A line a trial: whether journal, bag and the row of trials.csv are equal; a line a
-    participant: how many of the notes and answers that were written are read.
+    A line a trial: whether its files are as they were when it ended, by the sums in
+    the study's journal, and whether journal, bag and the row of trials.csv are equal;
+    a line a participant: how many of the notes and answers are read.
 
     Exit codes
     0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
@@ -252,7 +253,7 @@ def export(args):
     print(f"navvi: written: {export.write(study, study.progress(), export.way_of)}")
 
 
-@action(PLAN, ONLY)
+@action(PLAN, ONLY, argument("--blind", action="store_true", help="write report-blind.html, with letters for the conditions, and no table."))
 def report(args):
     """Write the study's report, one HTML file, besides its tables.
 
@@ -263,7 +264,7 @@ def report(args):
     0: written. 2: a wrong plan, or a damaged record.
     """
     study = opened(args)
-    _write_report(study, args.only, rehearsed=False)
+    _write_report(study.blinded() if args.blind else study, args.only, rehearsed=False)
 
 
 @action(PLAN, ONLY)
@@ -306,13 +307,13 @@ def _write_report(study, only, rehearsed):
     from .measures import MEASURES
     from .study import write_safely
     progress = study.progress()
-    files = table.write(study, progress, _figures())
+    files = [] if study.letters else table.write(study, progress, _figures())
     if not only:
         files.append(report.write(study, progress, rehearsed, worlds.picture_for(study.plan, TOOLS["draw"])))
     elif only not in MEASURES or only not in (measured := Analysis(study, progress)).asked():
         raise StudyError(f"--only is \"{only}\"; allowed is a measure with values, of: {', '.join(MEASURES)}.")
     else:
-        files.append(study.folder / f"{only}.svg")
+        files.append(study.folder / f"{only}{'-blind' if study.letters else ''}.svg")
         write_safely(files[-1], figures.by_condition(measured, only))
     for path in files:
         print(f"navvi: written: {path}")

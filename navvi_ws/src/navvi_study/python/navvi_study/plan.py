@@ -93,6 +93,8 @@ class Question:
     second: str
     trials: str = ""  # "reached": of a measure that is defined for these alone, and the plan says so
     within: float = 0.0  # above 0: the two are equivalent if they differ by less; in the unit of the measure
+    effect: float = 0.0  # the difference that the sample is to show, likewise
+    sd: float = 0.0  # of the participants' differences, likewise
 
 
 @dataclass(frozen=True)
@@ -166,7 +168,7 @@ class Plan:
         if self.exposure == "trial":
             del values["exposure"]
         for question in (values["primary"], *values["secondary"]):
-            for key in ("trials", "within"):
+            for key in ("trials", "within", "effect", "sd"):
                 if not question[key]:
                     del question[key]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}

@@ -94,9 +94,11 @@ def _question(part, conditions):
         whole = ", ".join(name for name, one in measures.MEASURES.items() if one.of != measures.REACHED)
         raise part.error("measure", f"is {measure}, which is defined for {defined} alone; allowed are \"trials: reached\" beside it, by which "
                          f"the plan leaves the others out, and the measures {whole}")
-    within = part.take("equivalent_within", number(1e-6, 1e6), 0.0)
+    within, effect, sd = (part.take(key, number(1e-6, 1e6), 0.0) for key in ("equivalent_within", "effect", "sd"))
     part.done()
-    return Question(measure, *pair, trials, within)
+    if (sd or effect) and not (sd and bool(within) != bool(effect)):
+        raise StudyError(f"{part.file}: \"{part.path}\" needs \"sd\" with one of the keys \"effect\" and \"equivalent_within\" for a sample size.")
+    return Question(measure, *pair, trials, within, effect, sd)
 
 
 def _name(part, name):

@@ -3,7 +3,7 @@ import json
 from types import SimpleNamespace
 
 from . import overview
-from .measures import EXPOSURES, LEAST, MEASURES, RESAMPLES
+from .measures import EXPOSURES, LEAST, MEASURES, RESAMPLES, sample_size
 from .steps import KINDS
 from .study import write_safely
 
@@ -41,6 +41,7 @@ def page(plan, freezes):
             f"Sessions: {plan.sessions}. Calibration: {'yes' if plan.calibrate else 'no'}. Learning of a person's delay: {plan.learning}."],
         "Participants": [
             *[f"Group {group.name}: {len(group.participants)}, in the conditions {', '.join(group.conditions)}." for group in plan.groups],
+            *sample(plan),
             f"Nobody begins once {plan.stop_after} have completed the study." if plan.stop_after else "The study ends when all have taken part.",
             f"Consent: {plan.consent.title}." if plan.consent else "The plan asks for no consent."],
         "Measures": [
@@ -64,6 +65,18 @@ def page(plan, freezes):
     for heading, sentences in sections.items():
         lines += ["", f"## {heading}", "", *[f"- {sentence}" for sentence in sentences]] if sentences else []
     return lines
+
+
+def sample(plan):
+    """A sentence on the primary outcome; none where the plan has no effect and variance."""
+    one, planned = plan.primary, sum(len(group.participants) for group in plan.groups)
+    sd, within = getattr(one, "sd", 0), getattr(one, "within", 0)
+    if not sd:
+        return []
+    effect, unit = within or one.effect, MEASURES[one.measure].unit
+    few, many = (sample_size(effect, sd, power, bool(within)) for power in (0.8, 0.9))
+    return [f"Sample size: {'equivalence within' if within else 'a difference of'} {effect:g} ({unit}), where participants' differences have an SD of {sd:g}, is shown with "
+            f"80 % power by {few} participants, with 90 % by {many}; {planned} are planned."]
 
 
 def hypothesis(one):

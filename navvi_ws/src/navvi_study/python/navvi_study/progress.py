@@ -21,6 +21,7 @@ class Attempt:
     excluded_by: str = ""
     replaced: bool = True  # another attempt takes its place
     dropped_out: bool = False  # the person or the experimenter ended it
+    sums: dict = field(default_factory=dict)  # SHA-256 of its trial's files when it ended, by name; none in journals of before
 
     @property
     def counts(self):
@@ -116,6 +117,7 @@ class Progress:
     def _end(self, row):
         attempt = self._attempt(row)
         attempt.ended, attempt.trial, attempt.result, attempt.collisions = True, row["trial"], row["result"], row["collisions"]
+        attempt.sums = row.get("sums", {})
 
     def _done(self, row):
         self.people[row["participant"]].done[row["step"]] = row

@@ -1,5 +1,6 @@
 """What `study next` does: the next thing of one participant, from whatever state the last one left."""
 from .errors import StudyError
+from .journal import sum_of
 from .measures import number
 from .plan import BROKEN_OFF
 from .study import read_summary
@@ -51,7 +52,8 @@ class Session:
         collisions = [number(row.get(f"{what}_collision_count")) for what in ("shelf", "obstacle")]
         self.study.journal.append(
             "end", participant=name, step=attempt.step, attempt=attempt.number, trial=trials[-1].name if began else "",
-            result=row.get("result", "none") if began else "none", collisions=None if None in collisions else sum(collisions))
+            result=row.get("result", "none") if began else "none", collisions=None if None in collisions else sum(collisions),
+            sums={path.name: sum_of(path) for path in sorted(trials[-1].iterdir()) if path.is_file()} if began else {})
         if not began:
             self.say("navvi: no trial began; the same comes again with the next \"study next\".")
             return False
