@@ -8,8 +8,6 @@ import subprocess
 import threading
 import time
 
-import rosgraph
-
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 DARK = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}  # without a screen
@@ -102,6 +100,7 @@ class Session(Programs):
 
     def wait_until_ready(self):
         """Its master answers."""
+        import rosgraph
         self.wait_until(lambda: self.uri and rosgraph.is_master_online(self.uri), 300, "the master answers")
 
     def wait_until_begun(self):
