@@ -200,7 +200,7 @@ def test_a_new_kind_of_step_is_one_class(tmp_path, monkeypatch):
 
         @classmethod
         def registered(cls, plan):
-            return [("Measures", f"Hearing: {plan.hearing.tones} tones.")]
+            return [("Measures", f"Hearing: {plan.hearing.tones} tones.")] if plan.hearing else []
 
         @classmethod
         def planned(cls, place):
@@ -213,6 +213,7 @@ def test_a_new_kind_of_step_is_one_class(tmp_path, monkeypatch):
     for module in (plan_file, preregistration):
         monkeypatch.setattr(module, "KINDS", (*steps.KINDS, Hearing))
     assert small(tmp_path).hash() == before, "plans without keep their hash"
+    assert "Hearing" not in preregistration.write(frozen(tmp_path / "without")).read_text()
     with pytest.raises(StudyError, match="\"hearing/tones\" is 0; allowed is a whole number from 1 to 9"):
         small(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 0}"))
     kept = frozen(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 3}\nminutes: {hearing: 2}"))

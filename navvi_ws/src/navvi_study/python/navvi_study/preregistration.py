@@ -21,7 +21,8 @@ def write(study):
     """The page of the plan that was frozen last. Returns the file."""
     path = study.folder / "preregistration.md"
     # As attributes, like a Plan's; keys that a freeze leaves out have their default.
-    plan = json.loads(json.dumps({"exposure": "trial", "probes": None, "at_begin": [], **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
+    usual = {"exposure": "trial", "at_begin": [], **{kind.key: None for kind in KINDS if kind.key}}
+    plan = json.loads(json.dumps({**usual, **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
     write_safely(path, "\n".join(page(plan, study.progress().freezes)) + "\n")
     return path
 
