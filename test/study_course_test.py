@@ -14,6 +14,7 @@ from small_study import Driver, ROOT, begin, bench, frozen, rehearsed, rest, sma
 from navvi_study import actions, export, journal, measures, overview, runner, session, study, table  # noqa: E402
 from navvi_study.analysis import Analysis  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
+from sessions import eventually  # noqa: E402
 
 # What comes next.
 
@@ -258,10 +259,7 @@ while true; do sleep 0.1; done
     navvi.chmod(0o755)
     child = multiprocessing.Process(target=lambda: session.Session(work.study, runner.LiveRunner(work.study, navvi, "true")).next("sub-01"), daemon=True)
     child.start()
-    deadline = time.monotonic() + 20
-    while not (tmp_path / "there").exists():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+    assert eventually((tmp_path / "there").exists, 20)
     if not with_command:
         os.kill(child.pid, signal.SIGKILL)
         child.join()
@@ -348,10 +346,7 @@ def test_a_rehearsal_that_was_killed_goes_on_and_ends_with_the_same_table(tmp_pa
     (tmp_path / "wait").touch()
     process = multiprocessing.Process(target=lambda: (os.setsid(), rehearsed(tmp_path, bench, [])))
     process.start()
-    deadline = time.monotonic() + 20
-    while not (tmp_path / "there").exists():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+    assert eventually((tmp_path / "there").exists, 20)
     os.killpg(process.pid, signal.SIGKILL)
     process.join()
     (tmp_path / "wait").unlink()
