@@ -61,7 +61,10 @@ class Programs:
 
     def person(self, program, *words, seconds=120):
         """What it prints: a program of this folder, or `-c` with its text, that drives, presses and hears for a person."""
-        done = self.run("/usr/bin/python3", program if program == "-c" else ROOT / "test" / program, *words, seconds=seconds)
+        try:
+            done = self.run("/usr/bin/python3", program if program == "-c" else ROOT / "test" / program, *words, seconds=seconds)
+        except subprocess.TimeoutExpired as late:
+            raise AssertionError(f"{program} was not through within {seconds} s: {(late.stdout or b'').decode()[-6000:]}") from None
         assert done.returncode == 0, done.stdout[-6000:] + done.stderr[-2000:] + self.log.read_text()[-3000:]
         return done.stdout
 
