@@ -35,7 +35,6 @@ Each line names the test that holds NavVI to it; `./navvi test accessibility` ru
 """
 import ast
 import os
-import pathlib
 import re
 import shutil
 import signal
@@ -44,22 +43,17 @@ import time
 
 import pytest
 
+from sessions import DARK, ROOT, navvi
+
 pytestmark = pytest.mark.accessibility
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 COMMANDS = sorted(path.stem for path in (ROOT / "navvi_cli/commands").glob("*.py"))
-QUIET = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-
-
-def navvi(*words, **more):
-    return subprocess.run([str(ROOT / "navvi"), *words], capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=120,
-                          env=dict(QUIET, **more))
 
 
 def on_a_terminal(words, **more):
     """What a command writes when it believes that a person sits at a terminal."""
     line = " ".join([str(ROOT / "navvi"), *words])
     return subprocess.run(["script", "-qec", line, "/dev/null"], capture_output=True, text=True, stdin=subprocess.DEVNULL,
-                          timeout=120, env=dict(QUIET, **more)).stdout.replace("\r\n", "\n")
+                          timeout=120, env=dict(DARK, **more)).stdout.replace("\r\n", "\n")
 
 
 def controls(text):
@@ -127,7 +121,7 @@ def test_the_tab_key_completes(typed, word):
 @pytest.mark.skipif(not shutil.which("zsh"), reason="zsh is not installed")
 def test_zsh_takes_the_completion(tmp_path):
     script = f"source <('{ROOT}/navvi' completion zsh); print -- ${{_comps[./navvi]}}"
-    found = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, timeout=60, env=dict(QUIET, HOME=str(tmp_path)))
+    found = subprocess.run(["zsh", "-f", "-c", script], capture_output=True, text=True, timeout=60, env=dict(DARK, HOME=str(tmp_path)))
     assert "_python_argcomplete" in found.stdout and not found.stderr, found.stderr
 
 
@@ -267,7 +261,7 @@ def test_a_command_that_is_killed_leaves_no_work_behind(tmp_path):
 
 def test_ctrl_c_ends_a_session_soon_and_says_so(tmp_path):
     process = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", "world:=training", f"out:={tmp_path}"],
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=QUIET, start_new_session=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=DARK, start_new_session=True,
                                preexec_fn=heed_ctrl_c)
     lines = []
     for line in process.stdout:

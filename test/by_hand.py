@@ -1,8 +1,6 @@
 """Whole sessions by hand and ear. Nothing is looked at: what is pressed depends on what is said, and the simulated operator drives by ear."""
-import pathlib
-import subprocess
+from sessions import Programs
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 HALL = ("name: hall\npreset: easy\nlayout: {length: 11, width: 13, rows: 1, blocks: 1, bays: 1, docks: 1, aisle: 3.2, staged: 0, "
         "forklifts: 0, pallet_robots: 0, walking_workers: 0, standing_workers: 0}\n")
 
@@ -11,19 +9,10 @@ def session(env, folder, person, results, *words):
     """A session in a small hall, with a trial for each of `results`, words of its summary."""
     layout = folder / "hall.yaml"
     layout.write_text(HALL)
-    launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), f"operator:={'auto' if person == 'auto' else 'keyboard'}", f"world:={layout}", "once:=false",
-                               "speech:=false", "feedback_parameters:={listener: topic}", "sim_parameters:={scenario: {min_route: 4, max_route: 7}}", f"out:={folder}", "limit:=300", *words],
-                              env=env, stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
-    person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/person.py"), person], env=env, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    try:
-        told, error = person.communicate(timeout=600)
-        assert person.returncode == 0, told[-6000:] + error[-2000:]
-    finally:
-        person.kill()
-        launch.terminate()
-        launch.wait(30)
-    print(told)
+    with Programs(env, folder / "log") as programs:
+        programs.launch("live.launch", f"operator:={'auto' if person == 'auto' else 'keyboard'}", f"world:={layout}", "once:=false", "speech:=false",
+                        "feedback_parameters:={listener: topic}", "sim_parameters:={scenario: {min_route: 4, max_route: 7}}", f"out:={folder}", "limit:=300", *words)
+        print(programs.person("person.py", person, seconds=600))
     assert "was ended by signal" not in (folder / "log").read_text()
     found = [path.read_text().splitlines()[1] for path in sorted(folder.glob("trial-*/summary.csv"))]
     assert len(found) == len(results) and all(word in row for row, word in zip(found, results)), found

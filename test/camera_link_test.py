@@ -5,12 +5,13 @@ import sys
 import time
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
-from pathlib import Path
 
 import numpy
 import pytest
 
-PROGRAM = Path(__file__).resolve().parent.parent / "navvi_ws/src/navvi_rviz/scripts/camera_link"
+from sessions import ROOT, Programs, eventually
+
+PROGRAM = ROOT / "navvi_ws/src/navvi_rviz/scripts/camera_link"
 
 
 @pytest.fixture(scope="module")
@@ -43,30 +44,22 @@ def test_a_picture_comes_over_as_it_is_and_one_that_stands_is_darkened(master):
     import rospy
     from sensor_msgs.msg import Image
     rospy.init_node("camera_link_test", disable_signals=True)
-    sides = [subprocess.Popen([PROGRAM, "send", "image:=/cam/image", "image/compressed:=/cam/image/compressed"], env=master),
-             subprocess.Popen([PROGRAM, "receive", "image:=/shown", "image/compressed:=/cam/image/compressed"], env=master)]
     camera, shown = rospy.Publisher("/cam/image", Image, queue_size=1), []
     rospy.Subscriber("/shown", Image, shown.append)
     red = numpy.zeros((48, 70, 3), numpy.uint8)  # whose rows have 6 bytes more than pixels
     red[:, :64, 2] = 200
     image = Image(width=64, height=48, encoding="bgr8", step=210, data=red.tobytes())
     image.header.frame_id = "camera"
-    try:
-        deadline = time.monotonic() + 30
-        while len(shown) < 3:
-            assert time.monotonic() < deadline, "no picture came"
-            camera.publish(image)
-            time.sleep(0.1)
+    with Programs(master) as programs:
+        programs.start(PROGRAM, "send", "image:=/cam/image", "image/compressed:=/cam/image/compressed")
+        programs.start(PROGRAM, "receive", "image:=/shown", "image/compressed:=/cam/image/compressed")
+        assert eventually(lambda: camera.publish(image) or len(shown) >= 3, 30), "no picture came"
         colours = numpy.frombuffer(shown[-1].data, numpy.uint8).reshape(48, 64, 3)
         assert shown[-1].header.frame_id == "camera" and abs(colours.mean(axis=(0, 1)) - (200, 0, 0)).max() < 4
         time.sleep(3.5)
         colours = numpy.frombuffer(shown[-1].data, numpy.uint8).reshape(48, 64, 3)
         assert colours[0].mean(axis=0)[0] == pytest.approx(80, abs=4), "dark at the border"
         assert (colours == 255).all(axis=2).sum() > 10, "its age in white"
-    finally:
-        for side in sides:
-            side.terminate()
-            side.wait(20)
 
 
 def test_a_wrong_word_ends_in_a_sentence():

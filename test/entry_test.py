@@ -1,5 +1,4 @@
 """The entry script, the launch files, the views and the parameter files, as they ship."""
-import csv
 import fcntl
 import pathlib
 import subprocess
@@ -8,17 +7,9 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 import yaml
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-
+from sessions import ROOT, navvi, summary
 
 SIMULATED = ["operator:=simulated", "rviz:=false"]
-
-
-def navvi(*words, **environment):
-    import os
-    env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    env.update(environment)
-    return subprocess.run([str(ROOT / "navvi"), *words], capture_output=True, text=True, env=env, timeout=60)
 
 
 def sentences(result):
@@ -148,8 +139,7 @@ def test_a_person_s_settings_are_used_in_a_session_and_named_in_its_record(tmp_p
     settings = next(word for word in journal.replace("%3d", "=").split(";") if word.startswith("settings=")).split(" ")
     for word in "feedback/speaker/rate=300", "feedback/cues/wording/units=meters", "feedback/cues/wording/verbosity=full", "feedback/person=anna":
         assert word in settings, result.stderr
-    with open(next((tmp_path / "out").glob("trial-*/summary.csv"))) as file:
-        assert next(csv.DictReader(file))["parameters"] == "feedback/person=anna feedback/cues/wording/units=meters"
+    assert summary(tmp_path / "out")["parameters"] == "feedback/person=anna feedback/cues/wording/units=meters"
 
 
 @pytest.fixture

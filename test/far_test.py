@@ -1,19 +1,16 @@
 """A person here, a robot there, and between them a network that delays, cuts and loses packets (far.py). The robot is the simulator."""
-import csv
 import json
 import os
 import re
 import signal
 import subprocess
 import time
-from pathlib import Path
 
 import pytest
 
 import far
+from sessions import ROOT, WORLD, eventually, summary
 
-ROOT = Path(__file__).resolve().parent.parent
-WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 pytestmark = pytest.mark.skipif(not far.is_possible(), reason="network namespaces and TUN devices need the rights of root")
 
 # On the robot's machine: a line for each change of the wheels' state, and with each odometry the speed.
@@ -52,7 +49,7 @@ class Session:
         self.env = dict(os.environ, HOME=str(folder), ROS_MASTER_URI=f"http://{far.ROBOT}:11311", ROS_LOG_DIR=str(folder))
         self.robot = self.start(self.wire.robot, "./navvi", "robot", "start", f"address:={far.ROBOT}", f"world:={WORLD}", "seed:=3",
                                 output=folder / "robot.txt")
-        self.wait(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 300)
+        assert eventually(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 300)
 
     def start(self, side, *words, output=None, **more):
         env = dict(self.env, ROS_IP=side.address)
@@ -63,13 +60,6 @@ class Session:
 
     def asks(self, *words):
         return subprocess.run([*self.wire.robot.enter, *words], env=dict(self.env, ROS_IP=far.ROBOT), capture_output=True).returncode == 0
-
-    @staticmethod
-    def wait(condition, seconds):
-        deadline = time.monotonic() + seconds
-        while not condition():
-            assert time.monotonic() < deadline, "it did not come in time"
-            time.sleep(0.05)
 
     def drive(self, *words):
         """The simulated person's session; what it prints."""
@@ -90,12 +80,6 @@ def session(tmp_path):
     session = Session(tmp_path)
     yield session
     session.close()
-
-
-def summary(folder):
-    trial = max(folder.glob("trial-*"))
-    with open(trial / "summary.csv", newline="") as file:
-        return next(csv.DictReader(file))
 
 
 @pytest.mark.parametrize("delay", [0.02, 0.2])
@@ -129,15 +113,15 @@ def test_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(ses
         return [(line["at"], line[name]) for line in lines if name in line]
 
     assert observer.poll() is None
-    session.wait(lambda: seen("speed"), 60)
+    assert eventually(lambda: seen("speed"), 60)
     for delay, cut, forward in ((0.05, 0.6, 1.0), (0.2, 3.0, -1.0), (0.05, 8.0, 1.0)):
         wire.delay = delay
         push(0.0)
-        session.wait(lambda: seen("state")[-1][1] == 1, 60)  # running
+        assert eventually(lambda: seen("state")[-1][1] == 1, 60)  # running
         push(forward)
-        session.wait(lambda: abs(seen("speed")[-1][1]) > 0.1, 20)
+        assert eventually(lambda: abs(seen("speed")[-1][1]) > 0.1, 20)
         wire.cut, at = True, time.monotonic()
-        session.wait(lambda: seen("state")[-1][1] == 2, 2)
+        assert eventually(lambda: seen("state")[-1][1] == 2, 2)
         stopped = next(when for when, state in seen("state") if when > at and state == 2)
         assert stopped - at < 0.25 + delay + 0.15, "the last stage before the wheels looks each 10 ms; this machine may be busy"
         time.sleep(cut)

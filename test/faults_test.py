@@ -1,6 +1,5 @@
 """Rows of doc/faults.md that need a whole session: programs are killed, and what is left is looked at from outside."""
 import contextlib
-import csv
 import datetime
 import os
 import pathlib
@@ -11,141 +10,88 @@ import socket
 import struct
 import subprocess
 import tempfile
-import threading
 import time
 
 import pytest
 
 from display import Display
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
-
-
-class Run:
-    """`./navvi run` with a simulated person, and the processes that belong to it."""
-
-    def __init__(self, folder, *words, rviz="false", **variables):
-        self.folder, self.output, self.uri = folder, [], ""
-        env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")} | variables
-        self.process = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", f"rviz:={rviz}", f"world:={WORLD}", "seed:=3",
-                                         f"out:={folder}", *words], env=env, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                        start_new_session=True)
-        self.reader = threading.Thread(target=self.read, daemon=True)
-        self.reader.start()
-
-    def read(self):
-        for line in self.process.stdout:
-            self.output.append(line)
-            self.uri = "".join(re.findall(r"ROS_MASTER_URI=(http:[\w.:/]+)", line)) or self.uri
-
-    def text(self):
-        return "".join(self.output)
-
-    def wait_for(self, condition, seconds, what):
-        deadline = time.monotonic() + seconds
-        while not condition():
-            assert time.monotonic() < deadline, f"in {seconds} s it did not come true that {what}:\n{self.text()[-4000:]}"
-            time.sleep(0.05)
-
-    def begin(self):
-        self.wait_for(lambda: "has begun" in self.text(), 300, "a trial begins")
-        time.sleep(2.0)
-
-    def processes(self):
-        """Number and command line of each that was started with this session's master."""
-        found = {}
-        for folder in pathlib.Path("/proc").glob("[0-9]*"):
-            try:
-                if f"ROS_MASTER_URI={self.uri}".encode() in (folder / "environ").read_bytes().split(b"\0"):
-                    found[int(folder.name)] = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode()
-            except OSError:  # just ended, or another user's
-                pass
-        return {number: line for number, line in found.items() if line}
-
-    def kill(self, program, how=signal.SIGKILL):
-        os.kill(next(number for number, line in self.processes().items() if program in line.split(" __name:=")[0]), how)
-
-    def summary(self):
-        with open(next(self.folder.glob("trial-*/summary.csv")), newline="") as file:
-            return next(csv.DictReader(file))
-
-    def close(self):
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGINT)
-        self.process.wait(30)
+from sessions import ROOT, WORLD, eventually, rows_of, summary
 
 
 @pytest.fixture
-def run(tmp_path):
-    session = Run(tmp_path)
-    yield session
-    session.close()
+def run(session):
+    """A trial that has begun: run(words and environment)."""
+    def begin(*words, **variables):
+        begun = session(f"world:={WORLD}", "seed:=3", *words, **variables)
+        begun.wait_until_begun()
+        begun.sleep(2.0)
+        return begun
+    return begin
 
 
 def test_L5_where_roslaunch_is_killed_nothing_lives_on_and_the_record_is_whole(run):
-    run.begin()
-    assert any("rosmaster" in line for line in run.processes().values())
-    run.kill("/roslaunch")
-    run.wait_for(lambda: not run.processes(), 20, "all programs of the session have ended")
-    run.process.wait(30)
-    assert (run.summary()["result"], run.summary()["reason"], run.summary()["bag"]) == ("aborted", "launcher_lost", "ok"), run.summary()
+    begun = run()
+    assert any("rosmaster" in line for line in begun.of_it().values())
+    begun.kill("/roslaunch")
+    begun.wait_until(lambda: not begun.of_it(), 20, "all programs of the session have ended")
+    begun.wait_until_ended(30)
+    assert ended(begun, "bag") == ("aborted", "launcher_lost", "ok")
     with socket.socket() as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        probe.bind(("127.0.0.1", int(run.uri.strip("/").rsplit(":", 1)[1])))
+        probe.bind(("127.0.0.1", int(begun.uri.strip("/").rsplit(":", 1)[1])))
 
 
 @pytest.mark.parametrize("program, reason", [("navvi_sim/sim_node", "simulator_lost"), ("/rosmaster", "master_lost")],
                          ids=["S1_simulator", "M1_master"])
 def test_a_crash_is_not_recorded_as_a_stop_by_hand(run, program, reason):
-    run.begin()
-    run.kill(program)
-    run.process.wait(40)
-    assert (run.summary()["result"], run.summary()["reason"]) == ("aborted", reason), run.text()[-2000:]
-    assert run.summary()["bag"] == "ok"
+    begun = run()
+    begun.kill(program)
+    begun.wait_until_ended(40)
+    assert ended(begun, "bag") == ("aborted", reason, "ok"), begun.text()[-2000:]
 
 
 def test_L5_where_the_command_is_killed_the_session_ends_with_it_and_the_record_is_whole(run):
-    run.begin()
-    run.process.kill()
-    run.wait_for(lambda: not run.processes(), 30, "all programs of the session have ended")
-    assert (run.summary()["result"], run.summary()["bag"]) == ("aborted", "ok"), run.summary()
+    begun = run()
+    begun.process.kill()
+    begun.wait_until(lambda: not begun.of_it(), 30, "all programs of the session have ended")
+    assert ended(begun, "bag")[::2] == ("aborted", "ok")
+
+
+def ended(begun, *more):
+    """Result and reason of its trial, and further columns."""
+    return tuple(summary(begun.folder)[name] for name in ("result", "reason", *more))
 
 
 @contextlib.contextmanager
-def twin_of(run, node):
+def twin_of(begun, node):
     """Another program by the name of one of the session's nodes."""
     program = subprocess.Popen(["/usr/bin/python3", "-c", f"import rospy; rospy.init_node('{node}'); rospy.spin()"],
-                               env=dict(os.environ, ROS_MASTER_URI=run.uri, ROS_IP="127.0.0.1"))
+                               env=dict(os.environ, ROS_MASTER_URI=begun.uri, ROS_IP="127.0.0.1"))
     yield program
     program.kill()
     program.wait()
 
 
 @pytest.mark.parametrize("node, words", [("trial_node", []), ("sim_node", []), ("perception_node", ["sensing:=lidar"])])
-def test_M2_a_second_node_of_a_name_ends_the_session_with_its_record_whole(node, words, tmp_path):
-    run = Run(tmp_path, *words)
-    try:
-        run.begin()
-        with twin_of(run, node):
-            run.process.wait(40)
-    finally:
-        run.close()
-    assert run.process.returncode == 1
-    assert (run.summary()["result"], run.summary()["reason"]) == ("aborted", "name_taken"), run.text()[-2000:]
-    assert f"error: Another node has taken the name /{node}, so this one ends." in run.text()
-    assert list(run.folder.glob("trial-*/events.csv"))
+def test_M2_a_second_node_of_a_name_ends_the_session_with_its_record_whole(node, words, run):
+    begun = run(*words)
+    with twin_of(begun, node):
+        begun.wait_until_ended(40)
+    assert begun.process.returncode == 1
+    assert ended(begun) == ("aborted", "name_taken"), begun.text()[-2000:]
+    assert f"error: Another node has taken the name /{node}, so this one ends." in begun.text()
+    assert list(begun.folder.glob("trial-*/events.csv"))
 
 
 @pytest.mark.parametrize("node", ["nav_node", "feedback_node"])
 def test_M2_a_guide_whose_name_is_taken_comes_back_and_leads_on(node, run):
-    run.begin()
-    with twin_of(run, node) as twin:
-        run.wait_for(lambda: twin.poll() is not None, 20, "the name is the guide's again")
-    run.process.wait(180)
-    assert f"error: Another node has taken the name /{node}, so this one ends." in run.text()
-    assert f"warning: {node} has ended with exit code 3 and is started anew." in run.text()
-    assert run.summary()["result"] == "reached", run.text()[-2000:]
+    begun = run()
+    with twin_of(begun, node) as twin:
+        begun.wait_until(lambda: twin.poll() is not None, 20, "the name is the guide's again")
+    said = begun.wait_until_ended(180)
+    assert f"error: Another node has taken the name /{node}, so this one ends." in said
+    assert f"warning: {node} has ended with exit code 3 and is started anew." in said
+    assert ended(begun)[0] == "reached", said[-2000:]
 
 
 def test_a_master_that_takes_longer_than_10_s_to_start_is_waited_for(tmp_path):
@@ -159,35 +105,32 @@ def test_a_master_that_takes_longer_than_10_s_to_start_is_waited_for(tmp_path):
     assert "process[one-2]: started" in ended.stdout, ended.stdout
 
 
-def test_F6_a_killed_rviz_comes_back_and_ends_by_no_signal(tmp_path):
+def test_F6_a_killed_rviz_comes_back_and_ends_by_no_signal(run, tmp_path):
     display = Display("1920x1080")
-    session = Run(tmp_path, "limit:=300", rviz="true", DISPLAY=display.name, LIBGL_ALWAYS_SOFTWARE="1")
-
-    def pictures():
-        return [number for number, line in session.processes().items() if line.startswith("/usr/lib/rviz/rviz ")]
     try:
-        session.begin()
-        session.wait_for(pictures, 30, "RViz runs")
+        begun = run("limit:=300", "rviz:=true", DISPLAY=display.name, LIBGL_ALWAYS_SOFTWARE="1")
+
+        def pictures():
+            return [number for number, line in begun.of_it().items() if line.startswith("/usr/lib/rviz/rviz ")]
+        begun.wait_until(pictures, 30, "RViz runs")
         killed = pictures()[0]
         time.sleep(5.0)
         os.kill(killed, signal.SIGKILL)
-        session.wait_for(lambda: pictures() and pictures() != [killed], 30, "RViz runs again")
-        assert "warning: the program rviz was ended by signal 9." in session.text()
-        session.wait_for(lambda: "[picture_back] the picture is back" in next(tmp_path.glob("session-*.log")).read_text(), 30, "the person is told")
+        begun.wait_until(lambda: pictures() and pictures() != [killed], 30, "RViz runs again")
+        assert "warning: the program rviz was ended by signal 9." in begun.text()
+        begun.wait_until(lambda: "[picture_back] the picture is back" in next(tmp_path.glob("session-*.log")).read_text(), 30, "the person is told")
         time.sleep(15.0)  # it draws the scene
-        os.killpg(session.process.pid, signal.SIGINT)
-        session.process.wait(40)
+        begun.end()
+        assert begun.wait_until_ended(40).count("was ended by signal") == 1, begun.text()[-2000:]
     finally:
-        session.close()
         display.close()
-    assert session.text().count("was ended by signal") == 1, session.text()[-2000:]
 
 
 def test_a_stop_by_hand_is_recorded_as_one(run):
-    run.begin()
-    os.killpg(run.process.pid, signal.SIGINT)
-    run.process.wait(40)
-    assert (run.summary()["result"], run.summary()["reason"]) == ("aborted", "stopped_by_signal"), run.text()[-2000:]
+    begun = run()
+    begun.end()
+    begun.wait_until_ended(40)
+    assert ended(begun) == ("aborted", "stopped_by_signal"), begun.text()[-2000:]
 
 
 def driven(folder):
@@ -196,29 +139,24 @@ def driven(folder):
     return max(map(float, re.findall(r",PROGRESS,.*path_length=([0-9.]+)", rows)), default=0.0)
 
 
-def test_S5_a_clock_that_is_set_by_an_hour_and_back_changes_no_motion_and_no_row(tmp_path):
+def test_S5_a_clock_that_is_set_by_an_hour_and_back_changes_no_motion_and_no_row(session, tmp_path):
     library, clock = tmp_path / "set_clock.so", tmp_path / "clock"
     subprocess.run(["g++", "-shared", "-fPIC", "-O1", "-o", str(library), str(ROOT / "test/set_clock.cpp"), "-ldl"], check=True)
     clock.write_bytes(struct.pack("=q", 0))
-    session = Run(tmp_path, LD_PRELOAD=str(library), SET_CLOCK=str(clock))
-    try:
-        for metres, hours in ((0.5, 1), (2.5, -1)):
-            session.wait_for(lambda: driven(tmp_path) > metres, 120, f"the robot has driven {metres} m")
-            with open(clock, "r+b") as file:  # the programs have it mapped
-                file.write(struct.pack("=q", 3600 * hours))
-        session.process.wait(60)
-    finally:
-        session.close()
-    result = session.summary()
+    begun = session(f"world:={WORLD}", "seed:=3", LD_PRELOAD=str(library), SET_CLOCK=str(clock))
+    for metres, hours in ((0.5, 1), (2.5, -1)):
+        begun.wait_until(lambda: driven(tmp_path) > metres, 120, f"the robot has driven {metres} m")
+        with open(clock, "r+b") as file:  # the programs have it mapped
+            file.write(struct.pack("=q", 3600 * hours))
+    begun.wait_until_ended(60)
+    result = summary(tmp_path)
     assert (result["result"], result["bag"], result["safe_stop_count"], result["missed_messages"]) == ("reached", "ok", "0", "0"), result
     folder = next(tmp_path.glob("trial-*"))
-    with open(folder / "journal.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(folder / "journal.csv")
     assert [int(row["seq"]) for row in rows] == list(range(1, len(rows) + 1))
     calendar = [datetime.datetime.fromisoformat(text) for row in rows for text in re.findall("calendar=([0-9T:-]+)", row["fields"])]
     assert max(calendar) - min(calendar) > datetime.timedelta(hours=1.9), "the clock of trial_node was not set"
-    with open(folder / "events.csv", newline="") as file:
-        onsets = [float(row["onset_s"]) for row in csv.DictReader(file)]
+    onsets = [float(row["onset_s"]) for row in rows_of(folder / "events.csv")]
     assert onsets == sorted(onsets)
 
 
@@ -306,10 +244,7 @@ def test_A2_a_node_without_memory_for_a_message_ends_with_a_sentence_or_goes_on(
         rospy.init_node("too_much", anonymous=True, disable_signals=True, disable_rostime=True)
         topic, message = too_much(name)
         publisher = rospy.Publisher(topic, type(message), queue_size=1, latch=True)
-        deadline = time.monotonic() + 20
-        while publisher.get_num_connections() == 0:
-            assert time.monotonic() < deadline and process.poll() is None
-            time.sleep(0.1)
+        assert eventually(publisher.get_num_connections, 20) and process.poll() is None
         time.sleep(1.0)
         used = int(re.search(r"VmSize:\s+(\d+)", pathlib.Path(f"/proc/{process.pid}/status").read_text()).group(1))
         subprocess.run(["prlimit", f"--pid={process.pid}", f"--as={(used << 10) + (megabytes << 20)}"], check=True)

@@ -1,29 +1,27 @@
 """The cues tell what can have been heard: by a sound device, or by whoever reads them."""
+import contextlib
 import os
 import subprocess
-import time
-from pathlib import Path
 
 import rospy
 from navvi_msgs.msg import Cue, TrialState
+
+from sessions import ROOT, Programs, eventually, sound
 
 QUEUED, STARTED, DROPPED = "0", "1", "4"
 
 
 def stages(master, folder, device, *words):
     """The stages of the words that feedback_node has when nothing comes from a robot for 10 s."""
-    config = folder / "alsoft"
-    config.write_text(f"[general]\ndrivers = {device}\n[wave]\nfile = {folder}/sound.wav\n")
-    env = dict(master, ALSOFT_CONF=str(config))
-    echo = subprocess.Popen(["rostopic", "echo", "-p", "/navvi/cues"], env=env, stdout=subprocess.PIPE, text=True)
-    node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic", *words], env=env,
-                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        node.wait(16)
-    except subprocess.TimeoutExpired:
+    with Programs(dict(master, **sound(folder, device))) as programs:
+        echo = programs.start("rostopic", "echo", "-p", "/navvi/cues", stdout=subprocess.PIPE, text=True)
+        node = programs.start("rosrun", "navvi_feedback", "feedback_node", "_input:=topic", *words)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            node.wait(16)
         node.terminate()
-    echo.terminate()
-    lines = [line.split(",") for line in echo.communicate()[0].splitlines()]
+        echo.terminate()
+        said = echo.communicate()[0]
+    lines = [line.split(",") for line in said.splitlines()]
     names = lines[0] if lines else []
     rows = [dict(zip(names, line)) for line in lines[1:]]
     return [row["field.stage"] for row in rows if row["field.modality"] == "0"]
@@ -47,20 +45,15 @@ def test_who_reads_them_hears_without_a_device(master, tmp_path):
 
 
 def test_who_drives_hears_that_the_session_ends(master, tmp_path):
-    config = tmp_path / "alsoft"
-    config.write_text(f"[general]\ndrivers = wave\n[wave]\nfile = {tmp_path}/sound.wav\n")
     os.environ.update(ROS_MASTER_URI=master["ROS_MASTER_URI"], ROS_IP=master["ROS_IP"])
     rospy.init_node("heard_test", disable_rostime=True, disable_signals=True)
     said = []
     rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and said.append((cue.kind, cue.stage)))
     trial = rospy.Publisher("/navvi/trial_state", TrialState, queue_size=1, latch=True)
-    node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic"], env=dict(master, ALSOFT_CONF=str(config)))
+    node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic"], env=dict(master, **sound(tmp_path)))
 
     def until(kind, stage):
-        deadline = time.monotonic() + 60
-        while (kind, stage) not in said:
-            assert time.monotonic() < deadline, said
-            time.sleep(0.02)
+        assert eventually(lambda: (kind, stage) in said), said
 
     trial.publish(TrialState(state=TrialState.READY))
     until("press_start", Cue.QUEUED)
@@ -73,6 +66,6 @@ def test_who_drives_hears_that_the_session_ends(master, tmp_path):
 
 
 def test_the_stopwatch_of_what_a_person_waits_for_sees_each_chain():
-    bench = Path(__file__).resolve().parent.parent / "navvi_ws/src/navvi_study/bench/latency_bench"
+    bench = ROOT / "navvi_ws/src/navvi_study/bench/latency_bench"
     run = subprocess.run([bench, "--rounds=1"], capture_output=True, text=True, timeout=200)
     assert run.returncode == 0 and "never seen" not in run.stdout, run.stdout + run.stderr

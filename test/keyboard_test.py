@@ -1,9 +1,7 @@
 """The keyboard as a stick, under a window manager, with keys pressed as a person presses them."""
 import contextlib
-import csv
 import ctypes
 import os
-import pathlib
 import signal
 import subprocess
 import time
@@ -11,8 +9,7 @@ import time
 import pytest
 
 from display import Display
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import ROOT, Programs, eventually, rows_of
 
 # How xdotool finds a window, and a word of its title.
 KEYS = ("--class", "key_window", "NavVI")
@@ -20,30 +17,27 @@ PICTURE = ("--name", "RViz$", "RViz")
 OTHER = ("--name", "Event Tester", "Event Tester")  # xev's, in the part of RViz
 
 
-class Keys:
+class Keys(Programs):
     """A screen with a window manager, feedback_node on the keyboard, and what it publishes."""
 
     def __init__(self, master, folder):
         self.display = Display()
-        self.env = dict(master, DISPLAY=self.display.name, PYTHONUNBUFFERED="1")
+        super().__init__(dict(master, DISPLAY=self.display.name, PYTHONUNBUFFERED="1"))
         self.folder = folder
-        self.processes = [self.start("openbox")]
-        echoes = {topic: self.start("rostopic", "echo", "-p", topic, output=folder / name)
-                  for name, topic in (("commands", "/navvi/command"), ("cues", "/navvi/cues"))}
-        self.processes.extend(echoes.values())
+        self.start("openbox")
+        echoes = {topic: self.echo(topic, name) for name, topic in (("commands", "/navvi/command"), ("cues", "/navvi/cues"))}
         self.node = self.start("rosrun", "navvi_feedback", "feedback_node", "_input:=keyboard", "_speech:=false", "_listener:=topic")
-        self.processes.append(self.node)
         for topic, echo in echoes.items():
             # By name: those of the test before may still be on the master's list.
             ends = "* /feedback_node ", f"* /rostopic_{echo.pid}_"
             assert eventually(lambda: all(end in self.command_line("rostopic", "info", topic) for end in ends), 120), f"nobody listens to {topic}"
 
-    def start(self, *words, output="/dev/null"):
-        with open(output, "w") as file:
-            return subprocess.Popen(words, env=self.env, stdout=file, stderr=subprocess.DEVNULL)
+    def echo(self, topic, name):
+        with open(self.folder / name, "w") as file:
+            return self.start("rostopic", "echo", "-p", topic, stdout=file)
 
     def command_line(self, *words):
-        return subprocess.run(words, env=self.env, capture_output=True, text=True, timeout=120).stdout.strip()
+        return self.run(*words, seconds=120).stdout.strip()
 
     def xdotool(self, *words):
         return self.command_line("xdotool", *words)
@@ -77,8 +71,7 @@ class Keys:
         assert eventually(activate, seconds), f"{window} does not get the focus"
 
     def rows(self, name):
-        with open(self.folder / name) as file:
-            return list(csv.DictReader(file))
+        return rows_of(self.folder / name)
 
     def command(self, field="linear.x"):
         """m/s or rad/s, of the last command."""
@@ -99,7 +92,7 @@ class Keys:
         return sum(row["field.kind"].startswith("menu_") and row["field.stage"] == "0" for row in self.rows("cues"))
 
     def run_trial(self):
-        self.processes.append(self.start("rostopic", "pub", "-l", "/navvi/trial_state", "navvi_msgs/TrialState", "{state: 4}"))
+        self.start("rostopic", "pub", "-l", "/navvi/trial_state", "navvi_msgs/TrialState", "{state: 4}")
         assert eventually(lambda: "Publishers: None" not in self.command_line("rostopic", "info", "/navvi/trial_state"), 60)
 
     def color(self):
@@ -108,20 +101,9 @@ class Keys:
                                  env=self.env, capture_output=True, timeout=20)
         return tuple(picture.stdout[:3])
 
-    def close(self):
-        for process in reversed(self.processes):
-            process.terminate()
-            process.wait(20)
+    def __exit__(self, *given):
+        super().__exit__(*given)
         self.display.close()
-
-
-def eventually(condition, seconds=15):
-    deadline = time.monotonic() + seconds
-    while time.monotonic() < deadline:
-        if condition():
-            return True
-        time.sleep(0.05)
-    return False
 
 
 @contextlib.contextmanager
@@ -141,15 +123,14 @@ def frozen_window(process):
 
 @pytest.fixture
 def keys(master, tmp_path):
-    keys = Keys(master, tmp_path)
-    yield keys
-    keys.close()
+    with Keys(master, tmp_path) as keys:
+        yield keys
 
 
 def test_keys_drive_only_where_they_are_meant(keys):
     keys.window(KEYS)
     # A window that opens later, as RViz does, keeps neither the focus nor the top, until a key was used.
-    keys.processes.append(keys.start("xev"))
+    keys.start("xev")
     keys.window(OTHER)
     time.sleep(1)
     assert eventually(lambda: keys.has_focus(KEYS))
@@ -198,7 +179,7 @@ def test_F6_keys_are_lost_with_the_display_and_return_with_it(keys):
     assert keys.node.poll() is None, "the guide goes on"
 
     keys.display.start()
-    keys.processes.append(keys.start("openbox"))
+    keys.start("openbox")
     keys.window(KEYS)
     assert eventually(lambda: keys.has_focus(KEYS))
     time.sleep(1)
@@ -210,9 +191,8 @@ def test_F6_keys_are_lost_with_the_display_and_return_with_it(keys):
 def test_keys_typed_into_the_picture_drive_too(keys):
     keys.window(KEYS)
     keys.env["LIBGL_ALWAYS_SOFTWARE"] = "1"
-    rviz = keys.start("/usr/bin/rviz", "-d", str(ROOT / "rviz/navvi.rviz"))
-    keys.processes.append(rviz)
-    keys.processes.append(keys.start("xev"))
+    rviz = keys.start("/usr/bin/rviz", "-d", ROOT / "rviz/navvi.rviz")
+    keys.start("xev")
     keys.window(OTHER)
     assert eventually(lambda: keys.visible(PICTURE), 120)
     # Until its panel knows who listens, the small window asks for the focus again and again.
@@ -289,7 +269,7 @@ def test_keys_typed_into_the_picture_drive_too(keys):
 
 def test_short_taps_count_and_a_key_that_was_down_before_does_not(keys):
     assert eventually(lambda: keys.has_focus(KEYS))
-    keys.processes.append(keys.start("xev"))
+    keys.start("xev")
     keys.window(OTHER)
     time.sleep(1)
     keys.tap(*["Next"] * 20)
@@ -308,7 +288,7 @@ def test_short_taps_count_and_a_key_that_was_down_before_does_not(keys):
 
 
 def test_escape_leaves_the_menu_and_only_f8_ends_the_trial(keys):
-    keys.processes.append(keys.start("rostopic", "echo", "-p", "/navvi/trial_request", output=keys.folder / "requests"))
+    keys.echo("/navvi/trial_request", "requests")
     assert eventually(lambda: keys.has_focus(KEYS))
     keys.run_trial()
     time.sleep(2)
@@ -332,7 +312,7 @@ def test_the_small_window_stays_in_a_corner(keys):
 
 
 def test_closing_the_small_window_asks_whether_the_trial_is_to_end(keys):
-    keys.processes.append(keys.start("rostopic", "echo", "-p", "/navvi/trial_request", output=keys.folder / "requests"))
+    keys.echo("/navvi/trial_request", "requests")
     keys.window(KEYS)
     assert eventually(lambda: keys.has_focus(KEYS))
     keys.xdotool("key", "alt+F4")

@@ -1,34 +1,32 @@
 """Sessions led by other ways than words: by the motors alone, without any sound, and by a sound that lasts."""
-import csv
 import pathlib
 import socket
 import struct
 import subprocess
 import threading
-import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import rosbag
+
+from sessions import ROOT, Programs, eventually, summary
+
+HALL = ["world:=busy", "seed:=9601", "limit:=150"]
 
 
-def session(folder, *words):
+def led(begun):
     """(summary, journal, kinds of the patterns that were felt) of a simulated person's trial."""
-    import rosbag
-    run = subprocess.run([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", "world:=busy", "seed:=9601", "limit:=150",
-                          f"out:={folder}", *words], text=True, capture_output=True, timeout=400, check=False)
-    trial = next(folder.glob("trial-*"), None)
-    assert trial, run.stdout[-3000:] + run.stderr[-1000:]
-    with open(trial / "summary.csv", newline="") as file:
-        summary = next(csv.DictReader(file))
+    begun.wait_until_ended(400)
+    trial = next(begun.folder.glob("trial-*"), None)
+    assert trial, begun.text()[-4000:]
     # A pattern stands apart from the pulses before it, so that of the arrival may begin when the record is over.
     with rosbag.Bag(str(trial / "trial.bag")) as bag:
         felt = {cue.kind for _, cue, _ in bag.read_messages("/navvi/cues") if cue.modality == cue.RUMBLE}
-    return summary, (trial / "journal.csv").read_text(encoding="utf-8"), felt
+    return summary(begun.folder), (trial / "journal.csv").read_text(encoding="utf-8"), felt
 
 
-def test_a_deafblind_person_reaches_the_goal_by_the_motors_alone(tmp_path):
-    summary, _, felt = session(tmp_path, "operator/person/type:=deafblind", "feedback/lead:=hand", "speech:=false")
-    assert summary["result"] == "reached" and summary["safe_stop_count"] == "0", summary
-    assert summary["cues_spoken"] == "0" and summary["sounds_played"] in ("0", "n/a"), summary
+def test_a_deafblind_person_reaches_the_goal_by_the_motors_alone(session):
+    result, _, felt = led(session(*HALL, "operator/person/type:=deafblind", "feedback/lead:=hand", "speech:=false"))
+    assert result["result"] == "reached" and result["safe_stop_count"] == "0", result
+    assert result["cues_spoken"] == "0" and result["sounds_played"] in ("0", "n/a"), result
     assert {"begun", "arrived"} <= felt
 
 
@@ -62,36 +60,28 @@ def test_all_that_a_deafblind_person_gets_is_the_rumble_of_a_pad(master, tmp_pat
     flags = subprocess.check_output(["pkg-config", "--cflags", "sdl2"], text=True).split()
     subprocess.run(["g++", "-std=c++17", "-shared", "-fPIC", *flags, "-o", str(library), str(ROOT / "test/virtual_pad.cpp"), "-ldl", "-pthread"], check=True)
     for name in ("ROS_MASTER_URI", "ROS_IP"):
-        if name in master:
-            monkeypatch.setenv(name, master[name])
-    env = {**master, "LD_PRELOAD": str(library), "VIRTUAL_PAD": pad, "ALSOFT_DRIVERS": "null"}
-    with open(tmp_path / "log", "w") as log:
-        launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), "operator:=pad", "rviz:=false", "world:=busy", "seed:=9601", "limit:=150",
-                                   "speech:=false", "once:=true", "feedback_parameters:={lead: hand}", f"out:={tmp_path}"], env=env, stdout=log, stderr=log)
+        monkeypatch.setenv(name, master[name])
+    with Programs(master, tmp_path / "log") as parts:
+        session = parts.start("roslaunch", ROOT / "launch/live.launch", *HALL, "operator:=pad", "rviz:=false", "speech:=false", "once:=true",
+                              "feedback_parameters:={lead: hand}", f"out:={tmp_path}",
+                              env={**master, "LD_PRELOAD": str(library), "VIRTUAL_PAD": pad, "ALSOFT_DRIVERS": "null"})
         carrying = threading.Thread(target=carry, args=(pad, over))
         carrying.start()
-        while launch.poll() is None and not pathlib.Path(pad).exists():
-            time.sleep(0.1)  # the person's clock is the simulator's
-        person = subprocess.Popen(["rosrun", "navvi_people", "operator_node", "_person/type:=deafblind", "_person/lead:=hand", "joy:=/hand",
-                                   "joy/set_feedback:=/felt", "navvi/cues:=/nothing"], env=master, stdout=log, stderr=log)
         try:
-            launch.wait(300)
+            assert eventually(pathlib.Path(pad).exists)  # the person's clock is the simulator's
+            parts.start("rosrun", "navvi_people", "operator_node", "_person/type:=deafblind", "_person/lead:=hand", "joy:=/hand", "joy/set_feedback:=/felt",
+                        "navvi/cues:=/nothing")
+            session.wait(300)
         finally:
             over.set()
-            person.terminate()
-            launch.terminate()
-            launch.wait(30)
             carrying.join()
-    trial = next(tmp_path.glob("trial-*"), None)
-    assert trial, (tmp_path / "log").read_text()[-3000:]
-    with open(trial / "summary.csv", newline="") as file:
-        summary = next(csv.DictReader(file))
-    assert (summary["result"], summary["operator"], summary["safe_stop_count"]) == ("reached", "pad", "0"), summary
-    assert summary["cues_spoken"] == "0" and summary["sounds_played"] in ("0", "n/a"), summary
+    result = summary(tmp_path)
+    assert (result["result"], result["operator"], result["safe_stop_count"]) == ("reached", "pad", "0"), result
+    assert result["cues_spoken"] == "0" and result["sounds_played"] in ("0", "n/a"), result
 
 
-def test_a_person_is_led_by_a_sound_that_lasts_without_an_order_to_turn(tmp_path):
-    summary, journal, _ = session(tmp_path, "operator/person/type:=typical", "feedback/lead:=flow")
-    assert summary["result"] == "reached" and summary["safe_stop_count"] == "0", summary
+def test_a_person_is_led_by_a_sound_that_lasts_without_an_order_to_turn(session):
+    result, journal, _ = led(session(*HALL, "operator/person/type:=typical", "feedback/lead:=flow"))
+    assert result["result"] == "reached" and result["safe_stop_count"] == "0", result
     # Ticks that end a turn would mean that the sound was given up.
     assert not any(f"kind={order};" in journal for order in ("turn_now", "straight_then", "go_on", "turn_stop")), journal[-2000:]

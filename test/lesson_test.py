@@ -1,6 +1,4 @@
 """The glossary, the tutorial and the calibration, by ear and hand alone: what is pressed depends on what is said, sounds and is felt."""
-import csv
-import pathlib
 import re
 import subprocess
 
@@ -8,9 +6,9 @@ import pytest
 import yaml
 
 import hearing
+from sessions import DARK, ROOT, Programs, rows_of, sound
 
 pytestmark = pytest.mark.accessibility
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 PHRASES = ROOT / "navvi_ws/src/navvi_feedback/config/phrases/en.yaml"
 
 
@@ -18,18 +16,10 @@ def give(env, folder, lesson, launch, *words, **more):
     """What the person heard and pressed, line by line, and the kinds of it."""
     # Of the last test's parameters the master of this module would keep what is not given now.
     subprocess.run(["rosparam", "delete", "/feedback_node"], env=env, stderr=subprocess.DEVNULL)
-    session = subprocess.Popen(["roslaunch", str(ROOT / "launch" / launch), f"lesson:={lesson.split('_')[0]}", *words], env=dict(env, **more),
-                               stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
-    person = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/pupil.py"), lesson, *(["keys"] if "DISPLAY" in env else [])], env=dict(env, **more), text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    try:
-        told, error = person.communicate(timeout=600)
-        assert person.returncode == 0, told[-6000:] + error[-2000:] + (folder / "log").read_text()[-2000:]
+    with Programs(dict(env, **more), folder / "log") as programs:
+        session = programs.launch(launch, f"lesson:={lesson.split('_')[0]}", *words)
+        told = programs.person("pupil.py", lesson, *(["keys"] if "DISPLAY" in env else []), seconds=600)
         session.wait(60)
-    finally:
-        person.kill()
-        session.terminate()
-        session.wait(30)
     print(told)
     lines = told.splitlines()
     return lines[:-1], lines[-1]
@@ -37,21 +27,14 @@ def give(env, folder, lesson, launch, *words, **more):
 
 @pytest.fixture
 def env(master):
-    return {key: value for key, value in master.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-
-
-def sound_of(tmp_path):
-    """Where what is heard is written to, and how the mixer is told so."""
-    (tmp_path / "alsoft").write_text(f"[general]\ndrivers = wave\n[wave]\nfile = {tmp_path}/sound.wav\n")
-    return tmp_path / "sound.wav", {"ALSOFT_CONF": str(tmp_path / "alsoft")}
+    return {key: value for key, value in master.items() if key in DARK or key.startswith("ROS_")}
 
 
 def test_the_glossary_is_understood_and_ended_at_will(env, tmp_path):
-    wave, sound = sound_of(tmp_path)
-    _, kinds = give(env, tmp_path, "glossary_begins", "lesson.launch", "operator:=topic", **sound)
+    _, kinds = give(env, tmp_path, "glossary_begins", "lesson.launch", "operator:=topic", **sound(tmp_path))
     assert "'glossary_end'" in kinds
     begin = tmp_path / "begin.wav"
-    subprocess.run(["sox", "--ignore-length", str(wave), str(begin), "trim", "0", "20"], check=True)
+    subprocess.run(["sox", "--ignore-length", str(tmp_path / "sound.wav"), str(begin), "trim", "0", "20"], check=True)
     heard = " ".join(" ".join(words) for _, words in hearing.transcribe(begin, told=True))
     for words in "here is each signal", "arrow down for the next one", "on the left":
         assert words in heard, heard
@@ -67,8 +50,7 @@ def test_the_glossary_is_given_in_spanish_by_keys_and_without_motors(desktop, tm
 
 
 def test_the_glossary_is_given_from_the_first_signal_to_the_last(env, tmp_path):
-    _, sound = sound_of(tmp_path)
-    _, kinds = give(env, tmp_path, "glossary", "lesson.launch", "operator:=topic", "feedback_parameters:={speaker: {rate: 449}}", **sound)
+    _, kinds = give(env, tmp_path, "glossary", "lesson.launch", "operator:=topic", "feedback_parameters:={speaker: {rate: 449}}", **sound(tmp_path))
     texts = yaml.safe_load(PHRASES.read_text())["lessons"]
     missing = [key for key in texts if key.startswith("glossary_") and not key.endswith("_keys") and f"'{key}'" not in kinds]
     # Off in a session unless wanted; there are motors.
@@ -84,8 +66,7 @@ def test_the_tutorial_is_passed_by_doing_and_practises_what_went_wrong(request, 
     lines, kinds = give(env, tmp_path, "tutorial", "live.launch", f"operator:={hands}", "world:=training", "start:=-6.5,-5,1.57", "goal:=0.2,-1",
                         "speech:=false", "rviz:=false", f"out:={tmp_path}", "once:=false", "limit:=300",
                         f"feedback_parameters:={{listener: topic, record: {record}}}")
-    with open(record) as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(record)
     assert [row["passed"] for row in rows] == ["yes"] * 16
     tries = {row["step"]: int(row["tries"]) for row in rows[:-1]}
     assert tries["turn_right"] > 1 and tries["ahead"] == 1

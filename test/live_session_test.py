@@ -1,14 +1,11 @@
 """One whole session as a person starts it, watched from outside, and what it leaves behind."""
-import csv
 import datetime
 import difflib
 import os
-import pathlib
 import re
 import shutil
 import signal
 import subprocess
-import threading
 import time
 
 import pytest
@@ -21,9 +18,7 @@ from octomap_msgs.msg import Octomap
 
 import hearing
 from display import Display
-
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
+from sessions import ROOT, WORLD, Session, rows_of, sound, summary
 
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/odom", "/octomap_binary", "/occupied_cells_vis_array", "/navvi/scene",
@@ -36,44 +31,13 @@ MOST_BYTES = 55_000  # of a bag, for each simulated second: 0.2 GB an hour
 PICTURE = ["/navvi/scene", "/navvi/scene_moving", "/navvi/navmesh", "/navvi/markers", "/navvi/path"]
 
 
-class Session:
-    """`./navvi run` and everything that was seen while it ran."""
+class Watched(Session):
+    """A session, and everything that was seen while it ran."""
 
     def __init__(self, folder, *words):
-        self.display = Display()
-        self.folder = folder
-        self.heard, self.command = [], 0.0
-        self.octomap = None
-        sound = folder / "sound.wav"
-        (folder / "alsoft.conf").write_text(f"[general]\ndrivers=wave\n[wave]\nfile={sound}\n")
-        self.sound = sound
-        env = dict(os.environ, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1",
-                   ALSOFT_CONF=str(folder / "alsoft.conf"))
-        self.process = subprocess.Popen([str(ROOT / "navvi"), "run", f"out:={folder}", *words], env=env, text=True,
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True)
-        self.output, self.uri = [], None
-        self.reader = threading.Thread(target=self._read, daemon=True)
-        self.reader.start()
-        self.wait_for(lambda: self.uri, 300, "the session names its master")
-        self.wait_for(lambda: rosgraph.is_master_online(self.uri), 30, "the master answers")
-
-    def _read(self):
-        for line in self.process.stdout:
-            self.output.append(line)
-            found = re.search(r"ROS_MASTER_URI=(http:[\w.:/]+)", line)
-            if found:
-                self.uri = found.group(1)
-
-    def text(self):
-        return "".join(self.output)
-
-    def wait_for(self, condition, seconds, what):
-        deadline = time.monotonic() + seconds
-        while time.monotonic() < deadline:
-            if condition():
-                return
-            time.sleep(0.02)
-        pytest.fail(f"in {seconds} s it did not come true that {what}:\n{self.text()[-4000:]}")
+        self.display, self.heard, self.command, self.octomap = Display(), [], 0.0, None
+        super().__init__(folder, *words, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1", **sound(folder))
+        self.wait_until_ready()
 
     def watch(self):
         os.environ["ROS_MASTER_URI"], os.environ["ROS_IP"] = self.uri, "127.0.0.1"
@@ -83,8 +47,7 @@ class Session:
         rospy.Subscriber("/octomap_binary", Octomap, lambda msg: setattr(self, "octomap", msg))
 
     def nodes(self):
-        master = rosgraph.Master("/observer", self.uri)
-        publishers, subscribers, _ = master.getSystemState()
+        publishers, subscribers, _ = rosgraph.Master("/observer", self.uri).getSystemState()
         return {name for _, names in publishers + subscribers for name in names}
 
     def topics(self):
@@ -92,41 +55,27 @@ class Session:
 
     def listening(self):
         """The sockets of this session's programs alone: other tests run beside it."""
-        def ours(line):
-            try:
-                environ = pathlib.Path("/proc", re.search(r"pid=(\d+)", line).group(1), "environ").read_bytes().split(b"\0")
-            except (AttributeError, OSError):  # of another user, or just ended
-                return False
-            return f"ROS_MASTER_URI={self.uri}".encode() in environ
-        return [line for line in subprocess.check_output(["ss", "-ltnpH"], text=True).splitlines() if ours(line)]
+        ours = {f"pid={number}," for number in self.of_it()}
+        return [line for line in subprocess.check_output(["ss", "-ltnpH"], text=True).splitlines() if any(pid in line for pid in ours)]
 
-    def close(self):
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGINT)
-            try:
-                self.process.wait(20)
-            except subprocess.TimeoutExpired:
-                os.killpg(self.process.pid, signal.SIGKILL)
+    def __exit__(self, *given):
+        super().__exit__(*given)
         self.display.close()
 
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
-    session = Session(tmp_path_factory.mktemp("session"), "operator:=simulated", f"world:={WORLD}", "seed:=3",
-                      "rviz:=true", "speech:=true", "limit:=240", "participant:=sub-01",
-                      "feedback/drive/expo:=0.2", "nav/replan/hold_time:=5", "feedback/speaker/pitch:=55")
-    try:
+    with Watched(tmp_path_factory.mktemp("session"), f"world:={WORLD}", "seed:=3", "rviz:=true", "speech:=true", "limit:=240", "participant:=sub-01",
+                 "feedback/drive/expo:=0.2", "nav/replan/hold_time:=5", "feedback/speaker/pitch:=55") as session:
         session.watch()
-        session.wait_for(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
+        session.wait_until(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
         session.seen_topics, session.seen_nodes = session.topics(), session.nodes()
         session.sockets = session.listening()
         time.sleep(2)
         session.picture = session.folder / "picture.png"
         session.display.shot(session.picture)
-        session.wait_for(lambda: session.process.poll() is not None, 300, "the session ends by itself")
+        session.wait_until_ended()
         yield session
-    finally:
-        session.close()
 
 
 @pytest.fixture(scope="module")
@@ -136,19 +85,14 @@ def trial(session):
     return folders[0]
 
 
-def summary(trial):
-    with open(trial / "summary.csv", newline="") as file:
-        return next(csv.DictReader(file))
-
-
 def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert session.process.returncode == 0, session.text()[-3000:]
-    assert summary(trial)["result"] == "reached"
+    assert summary(trial.parent)["result"] == "reached"
     assert "trial_node has ended, and the session with it." in session.text()
     assert not re.search("died|cleanly|={20}", session.text())
-    assert summary(trial)["participant"] == "sub-01"
-    assert summary(trial)["parameters"] == "feedback/drive/expo=0.2 nav/replan/hold_time=5 feedback/speaker/pitch=55"
-    assert re.fullmatch(r"\d+\.\d+\.\d+(\+[0-9a-f]+(-dirty)?)?", summary(trial)["version"])
+    assert summary(trial.parent)["participant"] == "sub-01"
+    assert summary(trial.parent)["parameters"] == "feedback/drive/expo=0.2 nav/replan/hold_time=5 feedback/speaker/pitch=55"
+    assert re.fullmatch(r"\d+\.\d+\.\d+(\+[0-9a-f]+(-dirty)?)?", summary(trial.parent)["version"])
 
 
 def test_topics_and_nodes_have_the_names_of_the_picture(session):
@@ -238,8 +182,7 @@ def test_the_record_repeats_the_simulation_bit_for_bit(trial, tmp_path):
 
 
 def test_the_robot_did_not_go_through_anything(trial):
-    with open(trial / "events.csv", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(trial / "events.csv")
     assert rows and list(rows[0])[:2] == ["onset_s", "duration_s"]
     assert {row["participant"] for row in rows} == {"sub-01"} and {row["trial"] for row in rows} == {trial.name}
     stamps = [datetime.datetime.fromisoformat(row["wall_clock_utc"].replace("Z", "+00:00")) for row in rows]
@@ -266,7 +209,7 @@ def test_what_was_said_can_be_heard(session):
     ended = {cue.id for cue in session.heard if cue.stage == Cue.ENDED}
     said = [word for cue in session.heard if cue.stage == Cue.STARTED and cue.modality == Cue.SPEECH and cue.id in ended
             for word in hearing.words_of(cue.text) if word not in numbers]
-    heard = [word for _, words in hearing.transcribe(session.sound) for word in words if word not in numbers]
+    heard = [word for _, words in hearing.transcribe(session.folder / "sound.wav") for word in words if word not in numbers]
     common = sum(block.size for block in difflib.SequenceMatcher(None, said, heard, autojunk=False).get_matching_blocks())
     assert said and common > 0.5 * len(said), f"said: {' '.join(said)}; heard: {' '.join(heard)}"
 

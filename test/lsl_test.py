@@ -1,14 +1,13 @@
 """A session is read by Lab Streaming Layer's own inlets, and the journal has the offset of its clock."""
-import csv
 import json
 import math
-import pathlib
 import re
 import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import DARK, Programs, rows_of
+
 READER = """
 import json, sys, time
 import pylsl
@@ -40,29 +39,19 @@ def done(master, tmp_path_factory):
         pytest.skip("pylsl is not installed; doc/study.md names the command")
     config = folder / "lsl.cfg"
     config.write_text("[multicast]\nResolveScope = machine\n[lab]\nKnownPeers = {127.0.0.1}\n")
-    env = dict(master, LSLAPICFG=str(config))
-    env.pop("DISPLAY", None)
-    reader = subprocess.Popen(["/usr/bin/python3", "-c", READER], env=env, stdout=subprocess.PIPE, text=True)
-    # A wait before the trial, so that the inlets are open: the simulated person presses start late.
-    launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), "operator:=simulated", "once:=true", "lsl:=true", "rviz:=false",
-                               "world:=training", "seed:=3", "limit:=60", f"out:={folder}"], env=env,
-                              stdout=open(folder / "log", "w"), stderr=subprocess.STDOUT)
-    try:
+    with Programs(dict(DARK, **{name: master[name] for name in ("ROS_MASTER_URI", "ROS_IP")}, LSLAPICFG=str(config)), folder / "log") as programs:
+        reader = programs.start("/usr/bin/python3", "-c", READER, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        # A wait before the trial, so that the inlets are open: the simulated person presses start late.
+        launch = programs.launch("live.launch", "operator:=simulated", "once:=true", "lsl:=true", "rviz:=false", "world:=training", "seed:=3", "limit:=60",
+                                 f"out:={folder}")
         read = json.loads(reader.communicate(timeout=150)[0])
-    finally:
-        reader.kill()
         launch.wait(60)
     return read, next(folder.glob("trial-*"))
 
 
-def rows(trial):
-    with open(trial / "journal.csv", newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def test_each_event_that_was_read_is_a_row_of_the_journal(done):
     read, trial = done
-    written = {int(row["seq"]): row for row in rows(trial)}
+    written = {int(row["seq"]): row for row in rows_of(trial / "journal.csv")}
     events = [json.loads(sample[0]) for _, sample in read["events"]]
     assert "TRIAL_END" in {event["type"] for event in events} and len(events) > 10
     for (at, _), event in zip(read["events"], events):
@@ -73,7 +62,7 @@ def test_each_event_that_was_read_is_a_row_of_the_journal(done):
 
 def test_the_offset_in_the_journal_brings_both_clocks_together(done):
     read, trial = done
-    written = {int(row["seq"]): row for row in rows(trial)}
+    written = {int(row["seq"]): row for row in rows_of(trial / "journal.csv")}
     offsets = [int(re.search(r"source=lsl;offset_ns=(-?\d+)", row["fields"]).group(1)) for row in written.values() if row["type"] == "CLOCK_OFFSET"]
     assert len(offsets) >= 5 and max(offsets) - min(offsets) < 50e6
     late = sorted(at - (int(written[json.loads(sample[0])["seq"]]["mono_ns"]) + offsets[0]) / 1e9 for at, sample in read["events"])

@@ -8,64 +8,29 @@ import time
 
 import rospy
 from navvi_msgs.msg import Cue
-from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
-BUTTONS = {"start": 6, "previous": 11, "next": 12, "back": 13, "choose": 14}
-KEYS = {"start": "Return", "previous": "Prior", "next": "Next", "back": "BackSpace", "choose": "Return"}
+from hands import Hands
 
 
-class Person:
-    def __init__(self, keyboard):
-        rospy.init_node("person", disable_rostime=True)
-        self.keyboard, self.heard, self.known, self.down, self.held = keyboard, [], 0, None, set()
-        self.begun = time.monotonic()
-        self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
-        rospy.Subscriber("/navvi/cues", Cue, self.hear, tcp_nodelay=True)
-        self.operator = subprocess.Popen(["rosrun", "navvi_people", "operator_node", "joy:=hand", "__name:=operator_node"])
-        rospy.Subscriber("/hand", Joy, self.steer, queue_size=1, tcp_nodelay=True)
+class Person(Hands):
+    def __init__(self, keys):
+        self.heard, self.known = [], 0
+        super().__init__(keys)
+        self.let_go = self.follow_operator()
 
     def hear(self, cue):
         if cue.modality == Cue.SPEECH and cue.stage == Cue.STARTED:
-            print(f"{time.monotonic() - self.begun:6.1f}  {cue.text}", flush=True)
+            self.tell(cue.text)
             self.heard.append((cue.kind, cue.text))
-
-    def steer(self, hand):
-        if not self.keyboard:
-            buttons = [0] * 15
-            if self.down:
-                buttons[BUTTONS[self.down]] = 1
-            self.joy.publish(Joy(axes=hand.axes, buttons=buttons))
-            return
-        left, forward = hand.axes
-        wanted = {key for key, on in (("Left", left > 0.3), ("Right", left < -0.3), ("Up", forward > 0.3), ("Down", forward < -0.3)) if on}
-        if wanted and abs(left) < 0.7 and wanted - {"Up"}:
-            wanted.add("Shift")
-        words = [word for key in self.held - wanted for word in ("keyup", key)] + [word for key in wanted - self.held for word in ("keydown", key)]
-        self.held = wanted
-        if words:
-            subprocess.run(["xdotool", *words], check=True, timeout=10)
 
     def press(self, name):
         """A short press, and what is said to it."""
         before = len(self.heard)
-        print(f"{time.monotonic() - self.begun:6.1f}  [{name}]", flush=True)
-        if self.keyboard:
-            subprocess.run(["xdotool", "keydown", KEYS[name], "sleep", "0.15", "keyup", KEYS[name]], check=True, timeout=10)
-        else:
-            self.down = name
-            time.sleep(0.15)
-            self.down = None
+        super().press(name)
         time.sleep(0.15)
         self.until(lambda: len(self.heard) > before, 3, f"{name} is answered")
         return self.heard[before][1]
-
-    def until(self, condition, seconds, what):
-        deadline = time.monotonic() + seconds
-        while not condition():
-            if time.monotonic() > deadline:
-                sys.exit(f"in {seconds} s it did not come true that {what}; last heard: {self.heard[-5:]}")
-            time.sleep(0.02)
 
     def wait_for(self, kinds, seconds):
         """Until one of them is said, after what was waited for before."""
@@ -119,9 +84,9 @@ class AtThePanel(Person):
 
     def panel(self, key, kinds):
         """Presses it, and waits for the answer."""
-        print(f"{time.monotonic() - self.begun:6.1f}  [{key}]", flush=True)
+        self.tell(f"[{key}]")
         before = len(self.heard)
-        subprocess.run(["xdotool", "keydown", key, "sleep", "0.15", "keyup", key], check=True, timeout=10)
+        self.tap(key)
         self.until(lambda: any(kind in kinds for kind, _ in self.heard[before:]), 60, f"{key} is answered")
 
     def change_a_setting(self):
@@ -152,8 +117,9 @@ class AtThePanel(Person):
 
 
 if __name__ == "__main__":
+    rospy.init_node("person", disable_rostime=True)
     person = AtThePanel(True) if sys.argv[1] == "panel" else Person(sys.argv[1] == "keyboard")
     try:
         person.run()
     finally:
-        person.operator.terminate()
+        person.let_go()

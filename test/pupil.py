@@ -1,50 +1,28 @@
 #!/usr/bin/env python3
 """A person for tests who learns by ear and hand, in a process of its own: `pupil.py glossary`, `glossary_begins`, `tutorial` or `calibrate`, with a pad as
 joy_node gives it, or after these the word `keys` with keys by xdotool. Hears the cues and feels the motors, and knows nothing else. Prints what is heard and pressed."""
-import subprocess
 import sys
-import threading
 import time
 
 import rospy
 from navvi_msgs.msg import Cue
-from sensor_msgs.msg import Joy, JoyFeedbackArray
+from sensor_msgs.msg import JoyFeedbackArray
 
-KEYS = {"repeat": "space", "around": "a", "where": "w", "end": "F8", "help": "h", "start": "Return", "previous": "Prior", "next": "Next"}
-BUTTONS = {"repeat": 0, "around": 2, "where": 3, "end": 4, "help": 5, "start": 6, "previous": 11, "next": 12}
+from hands import Hands
+
 # What is done about each word of the guide.
 OBEYED = {"wait": [("wait", [((0.0, 0.0), 0.5)]), ("go_on", [((0.0, 0.8), 1.5)])],
           "back_away": [("back_away", [((0.0, -0.8), 1.0)])],
           "make_room": [("make_room", [((0.6, 0.0), "turn_stop"), ((0.0, 0.0), 0.7), ((0.0, 0.8), 1.5)])]}
 
 
-class Pupil:
+class Pupil(Hands):
     def __init__(self, keys):
-        rospy.init_node("pupil", disable_rostime=True)
-        self.keys = keys
-        self.begun, self.axes, self.down, self.motors = time.monotonic(), [0.0, 0.0], None, (0.0, 0.0)
-        self.last, self.sound, self.silent_since, self.speaking = "", "", 0.0, False
-        self.sides, self.held = (0.0, 0.0), set()
-        self.flow, self.pulse, self.pulsed = (0.0, 0.0), (0.0, 0.0), 0.0
+        self.motors, self.last, self.sound, self.silent_since, self.speaking = (0.0, 0.0), "", "", 0.0, False
+        self.sides, self.flow, self.pulse, self.pulsed = (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), 0.0
         self.kinds, self.felt, self.signals = [], set(), 0
-        self.hand = None
-        if not keys:
-            self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
-        rospy.Subscriber("/navvi/cues", Cue, self.hear, tcp_nodelay=True)
+        super().__init__(keys)
         rospy.Subscriber("/joy/set_feedback", JoyFeedbackArray, self.feel, tcp_nodelay=True)
-        if not keys:
-            threading.Thread(target=self.hold, daemon=True).start()
-
-    def hold(self):
-        while not rospy.is_shutdown():
-            buttons = [0] * 15
-            if self.down:
-                buttons[BUTTONS[self.down]] = 1
-            self.joy.publish(Joy(axes=self.hand or self.axes, buttons=buttons))
-            time.sleep(0.02)
-
-    def tell(self, text):
-        print(f"{time.monotonic() - self.begun:6.1f}  {text}", flush=True)
 
     def hear(self, cue):
         if cue.modality == Cue.RUMBLE and cue.kind:
@@ -75,24 +53,11 @@ class Pupil:
         return self.last and not self.speaking and time.monotonic() - self.silent_since > 0.5
 
     def until(self, condition, seconds, what):
-        deadline = time.monotonic() + seconds
-        while not condition() and not rospy.is_shutdown():
-            if time.monotonic() > deadline:
-                sys.exit(f"in {seconds} s it did not come true that {what}; last heard: {self.last}")
-            time.sleep(0.01)
-
-    def press(self, name):
-        self.tell(f"[{name}]")
-        if self.keys:
-            subprocess.run(["xdotool", "keydown", KEYS[name], "sleep", "0.12", "keyup", KEYS[name]], check=True, timeout=10)
-            return
-        self.down = name
-        time.sleep(0.12)
-        self.down = None
+        super().until(condition, seconds, f"{what}; last heard: {self.last}")
 
     def push(self, x, y):
         self.tell(f"[stick {x} {y}]")
-        self.hold_keys(x, y) if self.keys else setattr(self, "axes", [x, y])
+        self.steer(x, y)
 
     def follow(self, step):
         """To where a sound that lasts, or pulses, lead, until they have ended for a while."""
@@ -107,18 +72,8 @@ class Pupil:
             leads = max(left, right) > 0.0
             last = time.monotonic() if leads else last
             lean = (left - right) / (left + right) if leads else 0.0
-            axes = [lean, 0.6 if leads and abs(lean) < 0.9 else 0.0]
-            self.hold_keys(*axes) if self.keys else setattr(self, "axes", axes)
+            self.steer(lean, 0.6 if leads and abs(lean) < 0.9 else 0.0)
             time.sleep(0.05)
-
-    def hold_keys(self, left, forward):
-        wanted = {key for key, on in (("Left", left > 0.3), ("Right", left < -0.3), ("Up", forward > 0.3), ("Down", forward < -0.3)) if on}
-        if 0.3 < abs(left) < 0.7:
-            wanted.add("Shift")
-        words = [word for key in self.held - wanted for word in ("keyup", key)] + [word for key in wanted - self.held for word in ("keydown", key)]
-        self.held = wanted
-        if words:
-            subprocess.run(["xdotool", *words], check=True, timeout=10)
 
     def glossary(self, signals=99):
         """To the end, or ends it after so many."""
@@ -194,23 +149,13 @@ class Pupil:
             self.push(0.0, 0.0)
         self.until(lambda: not self.last.startswith("tutorial_said"), 30, "something is told after that")
 
-    def steer(self, axes):
-        if self.keys:
-            self.hold_keys(*axes)
-        self.hand = axes
-
     def to_the_goal(self):
-        follows = [True]
-        operator = subprocess.Popen(["rosrun", "navvi_people", "operator_node", "joy:=hand", "__name:=operator_node"])
-        subscriber = rospy.Subscriber("/hand", Joy, lambda hand: self.steer(hand.axes if follows else [0.0, 0.0]), queue_size=1, tcp_nodelay=True)
+        let_go = self.follow_operator()
         try:
             self.press("start")
             self.until(lambda: "arrived" in self.kinds, 200, "the goal is reached")
         finally:
-            follows.clear()
-            operator.terminate()
-            subscriber.unregister()
-            self.hand = None
+            let_go()
 
     def calibrate(self):
         """Feels 0.1 on the left, 0.2 on the right, likes 0.5, and lets go after 0.3 s."""
@@ -241,6 +186,7 @@ class Pupil:
 
 
 if __name__ == "__main__":
+    rospy.init_node("pupil", disable_rostime=True)
     pupil = Pupil(sys.argv[2:] == ["keys"])
     getattr(pupil, sys.argv[1])()
     print(sorted(set(pupil.kinds) | pupil.felt), flush=True)

@@ -12,11 +12,11 @@ from tf2_msgs.msg import TFMessage
 
 import rospy
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 
 from navvi_cli import robot, robot_check  # noqa: E402
 from navvi_cli.arguments import LaunchFile  # noqa: E402
+from sessions import ROOT, Programs  # noqa: E402
 
 RAYS, NOW = 360, 1000.0
 
@@ -190,12 +190,9 @@ def check(master, *words):
     ("map_hz=1 scan_hz=2", ["scan:=/scan"], 1, "scan: wrong. Found: /scan, 2.0 Hz"),
 ])
 def test_a_robot_that_runs_is_checked(master, habits, words, code, sentence):
-    fake = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/fake_robot.py"), *habits.split()], env=master)
-    try:
+    with Programs(master) as programs:
+        programs.start("/usr/bin/python3", ROOT / "test/fake_robot.py", *habits.split())
         result = check(master, "input:=keyboard", *words)
-    finally:
-        fake.terminate()
-        fake.wait(20)
     assert result.returncode == code and "odom: well." in result.stdout and sentence in result.stdout, result.stdout + result.stderr
 
 

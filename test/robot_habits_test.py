@@ -1,11 +1,8 @@
 """launch/robot.launch with a robot whose drivers have the habits of real ones."""
-import pathlib
-import subprocess
-import time
-
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import ROOT, Programs
+
 RATE = 20.0  # Hz, of /navvi/proximity
 
 # Name, habits of fake_robot.py, and whether obstacles are sensed.
@@ -44,21 +41,14 @@ print(len(came) / float(sys.argv[2]))
 
 @pytest.fixture(scope="module")
 def session(master, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("trials")
-    process = subprocess.Popen(["roslaunch", str(ROOT / "launch/robot.launch"), "rehearse:=true", "input:=topic", "speech:=false",
-                                "rviz:=false", f"out:={folder}"], env=master, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    yield master
-    process.terminate()
-    process.wait(20)
+    with Programs(master) as session:
+        session.launch("robot.launch", "rehearse:=true", "input:=topic", "speech:=false", "rviz:=false", f"out:={tmp_path_factory.mktemp('trials')}")
+        yield session
 
 
 @pytest.mark.parametrize("habits, sensed", [pytest.param(*habit[1:], id=habit[0]) for habit in HABITS])
 def test_H1_obstacles_are_sensed_by_drivers_of_such_habits(session, habits, sensed):
-    robot = subprocess.Popen(["/usr/bin/python3", str(ROOT / "test/fake_robot.py"), *habits.split()], env=session)
-    try:
-        counted = subprocess.run(["/usr/bin/python3", "-c", COUNT, "5", "3"], env=session, capture_output=True, text=True, timeout=60)
-    finally:
-        robot.terminate()
-        robot.wait(20)
-    rate = float(counted.stdout)
+    with Programs(session.env) as robot:
+        robot.start("/usr/bin/python3", ROOT / "test/fake_robot.py", *habits.split())
+        rate = float(robot.person("-c", COUNT, "5", "3"))
     assert (rate > 0.6 * RATE) if sensed else (rate == 0.0), f"{rate} a second"

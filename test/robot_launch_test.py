@@ -1,17 +1,13 @@
 """launch/robot.launch with a robot that NavVI has never met: here the simulator, which knows nothing of the person's side."""
-import csv
 import json
-import pathlib
 import re
 import subprocess
-import time
 
 import pytest
 import yaml
 from navvi_msgs.msg import TrialState
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
+from sessions import ROOT, WORLD, Programs, eventually, summary
 
 PLACES = {"packing table": (0.5, 0.5), "gate 4": (-0.5, 0.25)}
 # Presses buttons of the menu, by nothing but the words that follow each press: until a goal is chosen, or a place is remembered.
@@ -67,25 +63,15 @@ def places_file(folder):
     return path
 
 
-class Robot:
+class Robot(Programs):
     def __init__(self, master, folder):
-        self.env, self.folder = master, folder
-        self.places = places_file(folder)
-        self.processes = []
+        super().__init__(master)
+        self.folder, self.places = folder, places_file(folder)
         self.run("rosparam", "set", "use_sim_time", "true")
         self.start("rosrun", "navvi_sim", "sim_node", "navvi/command:=/robot/command", "odom:=/robot/odom", f"_world:={WORLD}")
-        self.start("/usr/bin/python3", str(ROOT / "test/wheels.py"))
-        self.start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic",
-                   "speech:=false", "rviz:=false", f"out:={folder}", f"places:={self.places}",
-                   "feedback_parameters:={listener: topic}")
-
-    def run(self, *words, seconds=60):
-        return subprocess.run(words, env=self.env, capture_output=True, text=True, timeout=seconds)
-
-    def start(self, *words):
-        process = subprocess.Popen(words, env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.processes.append(process)
-        return process
+        self.start("/usr/bin/python3", ROOT / "test/wheels.py")
+        self.guide = self.launch("robot.launch", "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic", "speech:=false", "rviz:=false",
+                                 f"out:={folder}", f"places:={self.places}", "feedback_parameters:={listener: topic}")
 
     def field(self, topic, name):
         """A number of the topic's next message."""
@@ -93,26 +79,11 @@ class Robot:
         found = re.search(r"-?\d+(\.\d+)?(e-?\d+)?", text)
         return float(found.group()) if found else None
 
-    def close(self):
-        for process in reversed(self.processes):
-            process.terminate()
-        for process in self.processes:
-            process.wait(20)
-
 
 @pytest.fixture(scope="module")
 def robot(master, tmp_path_factory):
-    robot = Robot(master, tmp_path_factory.mktemp("trials"))
-    yield robot
-    robot.close()
-
-
-def eventually(condition, seconds=40):
-    deadline = time.monotonic() + seconds
-    while time.monotonic() < deadline:
-        if condition():
-            return True
-    return False
+    with Robot(master, tmp_path_factory.mktemp("trials")) as robot:
+        yield robot
 
 
 def test_a_goal_from_outside_is_followed(robot):
@@ -123,8 +94,7 @@ def test_a_goal_from_outside_is_followed(robot):
 
 
 def test_the_stick_moves_the_robot_through_the_relay(robot):
-    pushed = robot.run("/usr/bin/python3", str(ROOT / "test/stick.py"), "push", "/odom:=/robot/odom")
-    assert float(pushed.stdout) >= 0.3, pushed.stderr
+    assert float(robot.person("stick.py", "push", "/odom:=/robot/odom")) >= 0.3
 
 
 def test_the_nodes_on_a_robot_are_those_of_the_picture(robot):
@@ -133,17 +103,13 @@ def test_the_nodes_on_a_robot_are_those_of_the_picture(robot):
 
 
 def test_a_place_of_the_file_becomes_the_goal_by_buttons_and_ears_alone(robot):
-    chosen = robot.run("/usr/bin/python3", "-c", BY_EAR, "gate 4")
-    assert chosen.returncode == 0, chosen.stderr
-    found = json.loads(chosen.stdout)
+    found = json.loads(robot.person("-c", BY_EAR, "gate 4"))
     assert found["goal"] == ["map", *PLACES["gate 4"]], found
     assert found["heard"][-1] == "you are heading for gate 4"
 
 
 def test_the_robots_place_is_remembered_by_buttons_and_ears_and_another_by_a_click(robot):
-    heard = robot.run("/usr/bin/python3", "-c", BY_EAR, "remember")
-    assert heard.returncode == 0, heard.stderr
-    assert json.loads(heard.stdout)["heard"][-1] == "saved as place 1"
+    assert json.loads(robot.person("-c", BY_EAR, "remember"))["heard"][-1] == "saved as place 1"
     at = [robot.field("/robot/odom", f"pose/pose/position/{axis}") for axis in "xy"]
     click = "{header: {frame_id: map}, point: {x: 0.25, y: -0.5, z: 0.1}}"
     robot.run("rostopic", "pub", "-1", "/clicked_point", "geometry_msgs/PointStamped", click)
@@ -156,12 +122,9 @@ def test_the_robots_place_is_remembered_by_buttons_and_ears_and_another_by_a_cli
 
 def test_M2_a_relay_whose_name_is_taken_ends_the_trial_and_the_session(robot):
     assert eventually(lambda: robot.field("/navvi/trial_state", "state") == TrialState.RUNNING)
-    launch = robot.processes[2]
     robot.start("/usr/bin/python3", "-c", "import rospy; rospy.init_node('relay_node'); rospy.spin()")
-    launch.wait(40)
-    with open(max(robot.folder.glob("trial-*/summary.csv")), newline="") as file:
-        summary = next(csv.DictReader(file))
-    assert (summary["result"], summary["reason"]) == ("aborted", "name_taken"), summary
+    robot.guide.wait(40)
+    assert (summary(robot.folder)["result"], summary(robot.folder)["reason"]) == ("aborted", "name_taken")
 
 
 def test_the_robots_frames_and_radius_reach_who_reads_them():

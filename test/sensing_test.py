@@ -1,11 +1,11 @@
 """`./navvi run sensing:=robot`: the guide knows only what the robot's sensors show, and the record the truth."""
-import pathlib
 import re
 import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import ROOT
+
 LIVE = ROOT / "launch/live.launch"
 TOLD = ("octomap_binary", "navvi/obstacles", "navvi/proximity", "navvi/contacts")
 
@@ -42,10 +42,10 @@ def test_the_truth_is_told_where_nothing_else_is_asked_for():
         ["roslaunch", "--nodes", str(LIVE), "operator:=simulated", "rviz:=false"], capture_output=True, text=True, timeout=60).stdout
 
 
-def test_a_session_by_the_robots_own_sensors_reaches_its_goal(tmp_path):
-    done = subprocess.run([str(ROOT / "navvi"), "run", "world:=training", "operator:=simulated", "rviz:=false", "sensing:=robot",
-                           "limit:=200", f"out:={tmp_path}"], capture_output=True, text=True, timeout=900)
-    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+def test_a_session_by_the_robots_own_sensors_reaches_its_goal(session, tmp_path):
+    done = session("world:=training", "sensing:=robot", "limit:=200")
+    said = done.wait_until_ended(900)
+    assert done.process.returncode == 0, said[-6000:]
     log = next(tmp_path.glob("session-*.log")).read_text()
     assert "A prior map of" in log
     assert "Map taken" in log

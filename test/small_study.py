@@ -1,4 +1,5 @@
 """A small study for the tests, and what drives in place of ./navvi."""
+import functools
 import sys
 from pathlib import Path
 
@@ -8,7 +9,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "navvi_ws/src/navvi_study"
 sys.path.insert(0, str(PACKAGE / "python"))
 
-from navvi_study import plan_file, runner, session, study  # noqa: E402
+from navvi_study import plan_file, session, study  # noqa: E402
 
 EXAMPLE = PACKAGE / "studies/example_plan.yaml"
 PLAN = """
@@ -57,9 +58,9 @@ class Driver:
         write_summary(folder / f"trial-{len(self.driven)}", result)
 
     def ask(self, participant, step, items, answered, lock):
-        runner.simulate_answers(participant, step, items, answered)
+        step.simulate(participant, items, answered)
 
-    def calibrate(self, participant, lock):
+    def command(self, words, participant, lock):
         pass
 
     def close(self, folder):
@@ -73,19 +74,38 @@ def write_summary(folder, result="reached", elapsed=20.0, reason="n/a"):
     (folder / "summary.csv").write_text(",".join(row) + "\n" + ",".join(map(str, row.values())) + "\n")
 
 
+def frozen(folder, *changes):
+    kept = study.Study(small(folder, *changes))
+    kept.freeze("test", None)
+    return kept
+
+
+def begin(kept, *results, driver=Driver, say=lambda line: None):
+    """A session whose trials end so."""
+    return session.Session(kept, driver(kept, *results), say=say, wait=False)
+
+
 @pytest.fixture
 def work(tmp_path):
     """A frozen study; work(*results) gives a session whose trials end so."""
-    kept = study.Study(small(tmp_path))
-    kept.freeze("test", None)
+    kept = frozen(tmp_path)
+    given = functools.partial(begin, kept)
+    given.study = kept
+    return given
 
-    def begin(*results):
-        driver = Driver(kept, *results)
-        begun = session.Session(kept, driver, say=lambda line: None, wait=False)
-        begun.driver = driver
-        return begun
-    begin.study = kept
-    return begin
+
+def trial_of(kept, name="sub-01", at=0):
+    """An attempt of a participant, and its trial's folder."""
+    attempt = kept.progress().person(name).attempts[at]
+    return attempt, kept.attempt_folder(name, attempt.step, attempt.number) / attempt.trial
+
+
+def write_record(folder, end=30.0):
+    """A journal from 10 s of ROS time on, whose monotonic clock stands at 1000 s then and runs half as fast, and the events of it."""
+    rows = [(10.0, 1000.0, "TRIAL_START", "x=0;y=0"), (15.0, 1002.5, "PROGRESS", "x=1;y=0"), (end, 1000.0 + (end - 10.0) / 2, "TRIAL_END", "x=2;y=0")]
+    (folder / "journal.csv").write_text("trial,seq,sim_ns,mono_ns,type,fields,crc32\n" + "".join(
+        f"t,{seq},{int(sim * 1e9)},{int(mono * 1e9)},{kind},{fields},00000000\n" for seq, (sim, mono, kind, fields) in enumerate(rows, 1)))
+    (folder / "events.csv").write_text("onset_s,duration_s,trial,trial_type,robot_x_m,robot_y_m,detail\n2.500,0,t,goal reached,1.0,2.0,n/a\n")
 
 
 def rest(begun, name="sub-01"):

@@ -1,29 +1,19 @@
 """What happens to the wheels when the person's side dies at full speed."""
-import pathlib
-import subprocess
-
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
+from sessions import WORLD, Programs
 
 
 @pytest.fixture
 def session(master, tmp_path):
-    launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/live.launch"), "operator:=topic", f"world:={WORLD}",
-                               "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false", "feedback_parameters:={listener: topic}",
-                               "rviz:=false", f"out:={tmp_path}"],
-                              env=master, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    yield master
-    launch.terminate()
-    launch.wait(30)
+    with Programs(master) as session:
+        session.launch("live.launch", "operator:=topic", f"world:={WORLD}", "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false",
+                       "feedback_parameters:={listener: topic}", "rviz:=false", f"out:={tmp_path}")
+        yield session
 
 
 def run_stick(session, what):
-    stick = subprocess.run(["/usr/bin/python3", str(ROOT / "test/stick.py"), what], env=session, capture_output=True,
-                           text=True, timeout=120)
-    assert stick.returncode == 0, stick.stderr
-    return stick.stdout.split()
+    return session.person("stick.py", what).split()
 
 
 def test_only_the_guide_drives(session):

@@ -10,9 +10,11 @@ import time
 
 import pytest
 
-from small_study import Driver, ROOT, bench, rehearsed, rest, small, work, write_summary  # noqa: F401
-from navvi_study import actions, journal, overview, runner, session, study, table  # noqa: E402
+from small_study import Driver, ROOT, begin, bench, frozen, rehearsed, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
+from navvi_study import actions, export, journal, measures, overview, runner, session, study, table  # noqa: E402
+from navvi_study.analysis import Analysis  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
+from sessions import eventually  # noqa: E402
 
 # What comes next.
 
@@ -37,34 +39,33 @@ def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_pat
 
 
 def test_a_person_is_not_led_through_a_whole_study_at_once(tmp_path):
-    kept = study.Study(small(tmp_path, ("operator: simulated", "operator: pad")))
-    kept.freeze("test", None)
+    kept = frozen(tmp_path, ("operator: simulated", "operator: pad"))
     with pytest.raises(StudyError, match='"pad"; study run is for simulated'):
-        actions.Run.run(type("Args", (), {"plan": kept.plan.file, "only": None}))
+        actions.run(type("Args", (), {"plan": kept.plan.file, "only": None}))
 
 
 def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(work):
     begun = work("aborted")
     assert rest(begun)[:2] == ["s1-c1-trial-1", "s1-c1-trial-1"]
-    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 11)]
+    assert begun.runner.driven[:2] == [("easy", 1), ("easy", 11)]
     rows = table.trials(work.study, work.study.progress())
     assert [(row["attempt"], row["counts"], row["excluded"], row["replaces"]) for row in rows[:2]] == [
         ("1", "no", "the trial broke off", "n/a"), ("2", "yes", "n/a", "trial-1")]
 
 
-def test_an_invalid_record_counts_in_no_plan(tmp_path):
-    kept = study.Study(small(tmp_path, ("exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]", "")))
-    kept.freeze("test", None)
-    rest(session.Session(kept, Driver(kept, "invalid"), say=lambda line: None, wait=False))
-    rows = table.trials(kept, kept.progress())
-    assert [(row["counts"], row["excluded"]) for row in rows[:2]] == [("no", "its record is not whole"), ("yes", "n/a")]
+RULE = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]"
+
+
+@pytest.mark.parametrize("results, reasons", [(["invalid"], ["its record is not whole"]), (["aborted", "refused"], ["it broke off"] * 2)])
+def test_trials_that_broke_off_count_in_no_plan(tmp_path, results, reasons):
+    kept = frozen(tmp_path, (RULE, ""))
+    rest(begin(kept, *results))
+    assert [(row["counts"], row["excluded"]) for row in table.trials(kept, kept.progress())] == [("no", reason) for reason in reasons] + [("yes", "n/a")] * 2
 
 
 @pytest.mark.parametrize("exclusions", [True, False])
 def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, exclusions):
-    rule = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]"
-    kept = study.Study(small(tmp_path, ("sub-01..sub-04", "sub-01..sub-06"), *([] if exclusions else [(rule, "")])))
-    kept.freeze("test", None)
+    kept = frozen(tmp_path, ("sub-01..sub-04", "sub-01..sub-06"), *([] if exclusions else [(RULE, "")]))
 
     class GivingUp(Driver):
         """The person ends a trial of sub-01, and the experimenter one of sub-02; one of sub-03 breaks off by itself."""
@@ -86,28 +87,20 @@ def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, 
     assert sum("a drop-out, ended by the" in line for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
     lines = overview.status(kept, kept.progress())
     assert any("is a drop-out: ended by the person." in line for line in lines) and not any("without a trial" in line for line in lines)
-    from navvi_study.analysis import Analysis
     analysis = Analysis(kept, kept.progress())
     shown = {name: {row["condition"]: (row["trials"], round(row["mean"], 3)) for row in analysis.by_condition(name)} for name in ("reached", "drop_out", "collisions")}
     assert shown == {"reached": {"full": (6, 1.0), "plain": (6, 0.667)}, "drop_out": {"full": (6, 0.0), "plain": (6, 0.333)},
                      "collisions": {"full": (6, 3.0), "plain": (4, 3.0)}}
     name = next(row["trial"] for row in rows if row["counts"] == "drop-out")
-    actions.Exclude.run(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
+    actions.exclude(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
     begun = session.Session(kept, driver, say=said.append, wait=False)
     assert len(rest(begun, "sub-01")) == 1 and driver.driven[-1] == ("sub-01", 11)
-
-
-def test_trials_that_broke_off_count_in_no_plan(tmp_path):
-    kept = study.Study(small(tmp_path, ("exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]", "")))
-    kept.freeze("test", None)
-    rest(session.Session(kept, Driver(kept, "aborted", "refused"), say=lambda line: None, wait=False))
-    assert [(row["counts"], row["excluded"]) for row in table.trials(kept, kept.progress())] == [("no", "it broke off")] * 2 + [("yes", "n/a")] * 2
 
 
 def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, capsys):
     plan = small(tmp_path)
     actions.TOOLS["version"] = lambda: "test"
-    actions.Freeze.run(type("Args", (), {"plan": plan.file, "reason": None}))
+    actions.freeze(type("Args", (), {"plan": plan.file, "reason": None}))
     printed = capsys.readouterr().out
     for line in overview.broken_off(plan):
         assert line in printed and line in overview.schedule(plan)
@@ -121,18 +114,17 @@ def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, mo
     (tmp_path / "hall.sdf").write_text(hall.format(""))
     plan = small(tmp_path, ("a: {world: easy", "a: {world: hall.sdf"))
     args = type("Args", (), {"plan": plan.file, "reason": None, "no_worlds": False, "pictures": False})
-    for action in actions.Check, actions.Freeze:
+    for action in actions.check, actions.freeze:
         with pytest.raises(StudyError) as problem:
-            action.run(args)
+            action(args)
         assert "nothing stands in" in str(problem.value) and str(tmp_path / "hall.sdf") in str(problem.value)
     (tmp_path / "hall.sdf").write_text(hall.format("<model name='box'><static>1</static><pose>3 0 .5 0 0 0</pose><link name='l'><collision name='c'>"
                                                    "<geometry><box><size>1 1 1</size></box></geometry></collision></link></model>"))
-    actions.Freeze.run(args)
+    actions.freeze(args)
     assert study.Study.of(plan.file).progress().freezes
 
 
 def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):
-    from navvi_study import measures
     row = {"counts": "yes", "result": "timeout", "path_length_m": "5.0", "first_path_length_m": "10.0"}
     assert measures.value(measures.MEASURES["detour"], row) is None
     assert measures.value(measures.MEASURES["detour"], {**row, "result": "reached"}) == 0.5
@@ -147,7 +139,6 @@ def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_
 
 
 def test_the_page_on_studies_says_for_which_trials_each_measure_is_defined():
-    from navvi_study import measures
     page = (ROOT / "doc/study.md").read_text()
     for name, measure in measures.MEASURES.items():
         assert f"| {name} | {measure.label}, {measure.unit} | {measure.of} |" in page, name
@@ -157,7 +148,7 @@ def test_where_no_trial_began_the_same_world_comes_again(work):
     begun = work("none")
     assert begun.next("sub-01") is None
     assert rest(begun)[0] == "s1-c1-trial-1"
-    assert begun.driver.driven[:2] == [("easy", 1), ("easy", 1)]
+    assert begun.runner.driven[:2] == [("easy", 1), ("easy", 1)]
 
 
 def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):
@@ -173,12 +164,12 @@ def test_exclusions_are_rows_and_nothing_is_deleted(work, capsys):
     rest(work())
     before = work.study.journal.path.read_bytes()
     args = type("Args", (), {"plan": work.study.plan.file, "what": "sub-01/trial-1", "reason": "the phone rang", "no_replacement": False})
-    actions.Exclude.run(args)
+    actions.exclude(args)
     assert work.study.journal.path.read_bytes().startswith(before)
     with pytest.raises(StudyError, match="excluded already"):
-        actions.Exclude.run(args)
+        actions.exclude(args)
     begun = work()
-    assert rest(begun) == ["s1-c1-trial-1"] and begun.driver.driven == [("easy", 11)]
+    assert rest(begun) == ["s1-c1-trial-1"] and begun.runner.driven == [("easy", 11)]
     row = work.study.journal.rows()[-3]
     assert row["type"] == "exclude" and row["reason"] == "the phone rang" and row["by"] == getpass.getuser()
 
@@ -190,11 +181,10 @@ def test_when_the_reserve_is_used_up_the_trial_is_missing_and_the_rest_goes_on(w
 
 
 def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path):
-    kept = study.Study(small(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 2, collisions_at_most: 3, most: 4}\nlimit: 60")))
-    kept.freeze("test", None)
-    begun = session.Session(kept, Driver(kept, "timeout", "reached", "reached"), say=lambda line: None)
+    kept = frozen(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 2, collisions_at_most: 3, most: 4}\nlimit: 60"))
+    begun = begin(kept, "timeout", "reached", "reached")
     assert rest(begun).count("s1-practice") == 3
-    begun = session.Session(kept, Driver(kept, "timeout", "reached", "timeout", "reached"), say=lambda line: None)
+    begun = begin(kept, "timeout", "reached", "timeout", "reached")
     assert rest(begun, "sub-02").count("s1-practice") == 4
     people = kept.progress().people
     assert (people["sub-01"].done["s1-practice"]["mastered"], people["sub-02"].done["s1-practice"]["mastered"]) == (True, False)
@@ -202,10 +192,9 @@ def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path):
 
 def test_nobody_drives_without_consent(tmp_path):
     (tmp_path / "consent.yaml").write_text("title: Consent\nitems: [{name: agree, ask: Do you agree, choices: [\"no\", \"yes\"], required: \"yes\"}]")
-    kept = study.Study(small(tmp_path, ("limit: 60", "consent: consent\nlimit: 60")))
-    kept.freeze("test", None)
+    kept = frozen(tmp_path, ("limit: 60", "consent: consent\nlimit: 60"))
     said = []
-    begun = session.Session(kept, Driver(kept), say=said.append)
+    begun = begin(kept, say=said.append)
     begun.runner.ask = lambda participant, step, items, answered, lock: answered(items[0], "no")
     assert begun.next("sub-01") is None
     assert said[-1] == "navvi: sub-01: consent is not given, by an answer that was drawn: nobody was asked."
@@ -216,25 +205,21 @@ def test_nobody_drives_without_consent(tmp_path):
 
 
 def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_table(tmp_path):
-    from navvi_study import export
-    kept = study.Study(small(tmp_path, ("operator: simulated", "operator: simulated\nconsent: consent_example"), ("{after_condition", "{at_begin: [about_you], after_condition")))
-    kept.freeze("test", None)
-    driver = Driver(kept)
-    answers = {"sub-01": {"describe": "yes", "share": "no"}, "sub-02": {"describe": "no", "share": "yes"}}
-    driver.ask = lambda participant, step, items, answered, lock: [
-        answered(item, {"take_part": "yes", **answers[participant]}.get(item.name) or item.values()[-1]) for item in items]
+    kept = frozen(tmp_path, ("operator: simulated", "operator: simulated\nconsent: consent_example"), ("{after_condition", "{at_begin: [about_you], after_condition"))
     said = []
+    begun = begin(kept, say=said.append)
+    answers = {"sub-01": {"describe": "yes", "share": "no"}, "sub-02": {"describe": "no", "share": "yes"}}
+    begun.runner.ask = lambda participant, step, items, answered, lock: [
+        answered(item, {"take_part": "yes", **answers[participant]}.get(item.name) or item.values()[-1]) for item in items]
     for name in answers:
-        rest(session.Session(kept, driver, say=said.append, wait=False), name)
+        rest(begun, name)
     assert any(line == "navvi: sub-02: the questionnaire about_you is left out; the consent has no yes to \"describe\"." for line in said)
     rows = {row["participant"]: row for row in table.trials(kept, kept.progress())}
     columns = ("person_age_band", "person_acuity", "person_onset", "person_hearing", "person_touch")
     assert [rows["sub-01"][name] for name in columns] == ["75 or more", "full sight", "full sight", "hearing aid", "little"]
     assert [rows["sub-02"][name] for name in columns] == ["n/a"] * 5
-    for person in kept.progress().people.values():
-        for attempt in person.attempts:
-            (kept.attempt_folder(person.name, attempt.step, attempt.number) / attempt.trial / "journal.csv").write_text(
-                "head\nt,1,0,0,TRIAL_START,x=0;y=0,0\nt,2,9,9,TRIAL_END,x=1;y=0,0\n")
+    for name, at in itertools.product(answers, range(2)):
+        write_record(trial_of(kept, name, at)[1])
     folder = export.write(kept, kept.progress(), lambda trial: [])
     assert (folder / "participants.tsv").read_text().splitlines() == ["participant_id\tgroup\t" + "\t".join(columns), "sub-02\tall" + "\tn/a" * 5], "sub-01 said no to share"
     assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
@@ -251,9 +236,8 @@ def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
 
 
 def test_the_study_stops_where_the_plan_says(tmp_path):
-    kept = study.Study(small(tmp_path, ("limit: 60", "stop: {completed: 1}\nlimit: 60")))
-    kept.freeze("test", None)
-    begun = session.Session(kept, Driver(kept), say=lambda line: None)
+    kept = frozen(tmp_path, ("limit: 60", "stop: {completed: 1}\nlimit: 60"))
+    begun = begin(kept)
     rest(begun)
     with pytest.raises(StudyError, match="stops after 1"):
         begun.next("sub-02")
@@ -275,10 +259,7 @@ while true; do sleep 0.1; done
     navvi.chmod(0o755)
     child = multiprocessing.Process(target=lambda: session.Session(work.study, runner.LiveRunner(work.study, navvi, "true")).next("sub-01"), daemon=True)
     child.start()
-    deadline = time.monotonic() + 20
-    while not (tmp_path / "there").exists():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+    assert eventually((tmp_path / "there").exists, 20)
     if not with_command:
         os.kill(child.pid, signal.SIGKILL)
         child.join()
@@ -287,10 +268,10 @@ while true; do sleep 0.1; done
         work().next("sub-01")
     begun = time.monotonic()
     args = type("Args", (), {"plan": work.study.plan.file, "participant": "sub-01"})
-    actions.Stop.run(args)
+    actions.stop(args)
     assert time.monotonic() - begun < 5 and (tmp_path / "ended").exists() and f"{orphan} (navvi)" in capsys.readouterr().out
     child.join()
-    actions.Stop.run(args)
+    actions.stop(args)
     assert "nothing of sub-01 is running" in capsys.readouterr().out
     assert rest(work())[0] == "s1-c1-trial-1"
 
@@ -353,7 +334,7 @@ def test_a_full_disk_begins_nothing(work, monkeypatch):
     with pytest.raises(StudyError, match="cannot be written"):
         begun.next("sub-01")
     monkeypatch.undo()
-    assert begun.driver.driven == []
+    assert begun.runner.driven == []
     assert rest(begun)[0] == "s1-c1-trial-1"
 
 
@@ -365,10 +346,7 @@ def test_a_rehearsal_that_was_killed_goes_on_and_ends_with_the_same_table(tmp_pa
     (tmp_path / "wait").touch()
     process = multiprocessing.Process(target=lambda: (os.setsid(), rehearsed(tmp_path, bench, [])))
     process.start()
-    deadline = time.monotonic() + 20
-    while not (tmp_path / "there").exists():
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+    assert eventually((tmp_path / "there").exists, 20)
     os.killpg(process.pid, signal.SIGKILL)
     process.join()
     (tmp_path / "wait").unlink()

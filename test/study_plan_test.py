@@ -1,13 +1,14 @@
 """Studies without a session: the design, the plan and what is refused in it, the schedule."""
 import collections
+import hashlib
 import itertools
-import time
 
 import pytest
 
-from small_study import Driver, EXAMPLE, PACKAGE, rest, small
-from navvi_study import design, overview, plan_file, probe, progress, questionnaire, runner, schedule, session, study  # noqa: E402
+from small_study import EXAMPLE, PACKAGE, begin, frozen, rest, small
+from navvi_study import checked, design, overview, plan_file, preregistration, progress, questionnaire, report, runner, schedule, steps, study, worlds  # noqa: E402
 from navvi_study.errors import StudyError  # noqa: E402
+from navvi_study.steps.step import Step  # noqa: E402
 
 # The design.
 
@@ -51,8 +52,6 @@ DRAWN = ("limit: 60", "limit: 60\norder: drawn")
 
 
 def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it_is_due(tmp_path):
-    import hashlib
-    from navvi_study import preregistration, report
     plan = small(tmp_path, DRAWN)
     shown = "\n".join(overview.schedule(plan))
     assert "sub-02" not in shown and "it is one of: full, plain; plain, full." in shown
@@ -68,7 +67,7 @@ def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it
     assert "next is s1-c1-trial-1." in waiting and "in full" not in waiting and "in plain" not in waiting
     assert "printed here once" in report.opening(kept.progress())
     for name in plan.participants:
-        rest(session.Session(kept, Driver(kept), say=lambda line: None, wait=False), name)
+        rest(begin(kept), name)
     assert f"drawn by the seed {seed}" in report.opening(kept.progress())
     (tmp_path / "small/allocation.seed").write_text("another")
     with pytest.raises(StudyError, match="allocation.seed is missing or changed since the plan was frozen"):
@@ -100,6 +99,7 @@ def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it
     ("measure: time", "measure: sus", "does not ask sus"),
     ("{after_condition: [tlx]}", "{at_begin: [about_you]}", "needs \"yes\" to the item describe of the consent; the consent's items with a yes are: none"),
     ("measure: time", "equivalent_within: 0, measure: time", "\"outcomes/primary/equivalent_within\" is 0; allowed is a number from 1e-06"),
+    ("measure: time", "sd: 3, measure: time", "needs \"sd\" with one of the keys \"effect\" and \"equivalent_within\""),
     ("outcomes: {", "outcomes: {exposure: way, ", "\"outcomes/exposure\" is \"way\"; allowed is one of: trial, time, path"),
     ("[tlx]", "[txl]", "allowed are files in"),
     ("column: result, is: [aborted, invalid]", "column: result", "needs one of the keys"),
@@ -130,7 +130,6 @@ def test_the_example_can_be_checked_and_nobody_meets_a_world_twice():
 
 
 def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
-    from navvi_study import preregistration
     kept = study.Study(small(tmp_path, ("[plain, full]}", "[plain, full], equivalent_within: 5}, exposure: path, secondary: [{measure: collisions, conditions: [plain, full]}]")))
     kept.freeze("0.1.0", None)
     text = preregistration.write(kept).read_text()
@@ -147,6 +146,16 @@ def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
     changed.freeze("0.1.0", "too short")
     text = preregistration.write(changed).read_text()
     assert ", too short: limit: 60.0 is now 90.0" in text and "full and plain differ." in text and "after 90 s" in text
+
+
+@pytest.mark.parametrize("keys, words", [
+    # (1.960 + 0.842)^2 (8 / 5)^2 + 1.960^2 / 2 = 22.01, and 28.8 with 1.282; of equivalence with 1.645 and 1.282, 23.3, and with 1.645 29.1.
+    ("effect: 5, sd: 8", "a difference of 5 (s), where participants' differences have an SD of 8, is shown with 80 % power by 23 participants, with 90 % by 29; 4 are planned."),
+    ("equivalent_within: 5, sd: 8", "equivalence within 5 (s), where participants' differences have an SD of 8, is shown with 80 % power by 24 participants, with 90 % by 30; 4 are planned.")])
+def test_a_pre_registration_has_the_sample_size_of_the_plans_effect_and_variance(tmp_path, keys, words):
+    kept = frozen(tmp_path, ("full]}}", f"full], {keys}}}}}"))
+    assert f"- Sample size: {words}\n" in preregistration.write(kept).read_text()
+    assert "sd" not in small(tmp_path).values()["primary"], "plans without keep their hash"
 
 
 def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
@@ -172,11 +181,46 @@ def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
 def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
     kept = study.Study(small(tmp_path))
     step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.condition == "plain" and step.kind == "trial")
-    attempt = progress.Attempt(step.name, 1, "easy", 2, "", 0)
+    attempt = progress.Attempt(step.name, 1, "easy", 2)
     words = runner.LiveRunner(kept, "navvi", "close_trials").arguments("sub-01", step, attempt, tmp_path)
     assert words["feedback/haptics/enabled"] == "false" and words["feedback/sounds/enabled"] == "true"
     assert words["feedback/locked"] == words["trial/locked"] == "true"
     assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
+
+
+def test_a_new_kind_of_step_is_one_class(tmp_path, monkeypatch):
+    class Hearing(Step):
+        kind = key = "hearing"
+        words = "the hearing test"
+        usual = 4.0
+
+        @classmethod
+        def entry(cls, part, folder):
+            return {"tones": part.take("tones", checked.whole(1, 9))}
+
+        @classmethod
+        def registered(cls, plan):
+            return [("Measures", f"Hearing: {plan.hearing.tones} tones.")] if plan.hearing else []
+
+        @classmethod
+        def planned(cls, place):
+            return [cls.at(place, "hearing")] if place.plan.steps["hearing"] else []
+
+        def run(self, session, progress, person, lock):
+            return session.done(person.name, self, heard=session.study.plan.steps["hearing"]["tones"])
+    before = small(tmp_path).hash()
+    monkeypatch.setitem(steps.ORDER, "begin", (*steps.ORDER["begin"], Hearing))
+    for module in (plan_file, preregistration):
+        monkeypatch.setattr(module, "KINDS", (*steps.KINDS, Hearing))
+    assert small(tmp_path).hash() == before, "plans without keep their hash"
+    assert "Hearing" not in preregistration.write(frozen(tmp_path / "without")).read_text()
+    with pytest.raises(StudyError, match="\"hearing/tones\" is 0; allowed is a whole number from 1 to 9"):
+        small(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 0}"))
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nhearing: {tones: 3}\nminutes: {hearing: 2}"))
+    assert "  s1-hearing: the hearing test, about 2 min" in overview.schedule(kept.plan)
+    assert "- Hearing: 3 tones.\n" in preregistration.write(kept).read_text()
+    assert rest(begin(kept))[:2] == ["s1-hearing", "s1-c1-trial-1"]
+    assert kept.progress().people["sub-01"].done["s1-hearing"]["heard"] == 3
 
 
 def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
@@ -187,7 +231,6 @@ def test_what_was_learnt_of_a_person_is_kept_from_the_last_trial_that_tells():
 
 
 def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path):
-    from navvi_study import worlds
     plan = small(tmp_path)
 
     def compared(**second):

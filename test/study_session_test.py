@@ -1,15 +1,14 @@
 """A study of two simulated participants, two conditions and one world each, run live to its end and killed amid it."""
-import csv
 import json
 import os
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from sessions import ROOT, eventually, rows_of
+
 PLAN = """
 study: tiny
 title: A tiny study
@@ -46,14 +45,10 @@ class Study:
         return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
 
     def wait_for(self, condition, seconds=120):
-        deadline = time.monotonic() + seconds
-        while not condition():
-            assert time.monotonic() < deadline, self.rows()[-3:]
-            time.sleep(0.2)
+        assert eventually(condition, seconds), self.rows()[-3:]
 
     def table(self):
-        with open(self.folder / "trials.csv", newline="") as file:
-            return list(csv.DictReader(file))
+        return rows_of(self.folder / "trials.csv")
 
 
 @pytest.fixture(scope="module")
@@ -94,8 +89,7 @@ def test_each_trial_names_its_place_in_the_study_in_its_own_record(done):
         assert f"feedback/haptics/enabled={'false' if row['condition'] == 'plain' else 'true'}" in row["parameters"]
         assert "feedback/locked=true" in row["parameters"]
         folder = next(done.folder.glob(f"{row['participant']}/*/{row['trial']}"))
-        with open(folder / "summary.csv", newline="") as file:
-            own = next(csv.DictReader(file))
+        own = rows_of(folder / "summary.csv")[0]
         for name in ("condition", "group", "phase", "repeat", "attempt", "session"):
             assert own[name] == row[name], name
 
@@ -116,8 +110,7 @@ def test_the_figures_of_a_trial_are_those_that_are_counted_in_its_journal(done):
     """By the rows alone, without any of the programs that write them."""
     for row in counted(done):
         folder = next(done.folder.glob(f"{row['participant']}/*/{row['trial']}"))
-        with open(folder / "journal.csv", newline="") as file:
-            rows = [(int(line["sim_ns"]), line["type"], dict(pair.split("=", 1) for pair in line["fields"].split(";"))) for line in csv.DictReader(file)]
+        rows = [(int(line["sim_ns"]), line["type"], dict(pair.split("=", 1) for pair in line["fields"].split(";"))) for line in rows_of(folder / "journal.csv")]
         start = next(sim for sim, kind, _ in rows if kind == "TRIAL_START")
         reached = next(sim for sim, kind, _ in rows if kind == "GOAL_REACHED")
         end = next(fields for _, kind, fields in rows if kind == "TRIAL_END")

@@ -1,12 +1,10 @@
 """A robot that makes its map as it drives, in launch/robot.launch: a person asks twice for a place behind a wall and is led there."""
 import json
-import os
-import pathlib
-import subprocess
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import ROOT, Programs
+
 GOAL = (4.0, 3.0)
 START = (-4.0, -2.0)
 
@@ -94,29 +92,16 @@ def led(master, tmp_path_factory):
     folder = tmp_path_factory.mktemp("toward")
     world = folder / "halls.world"
     world.write_text(world_of_walls())
-    log = open(folder / "log", "w")
-    processes = []
-
-    def start(*words):
-        processes.append(subprocess.Popen(words, env=master, stdout=log, stderr=subprocess.STDOUT))
-    subprocess.run(["rosparam", "set", "use_sim_time", "true"], env=master, check=True, timeout=60)
-    hidden = [f"{topic}:=/truth/{topic}" for topic in TRUTH]
-    start("rosrun", "navvi_sim", "sim_node", "navvi/command:=/robot/command", "odom:=/robot/odom", *hidden, f"_world:={world}",
-          "_sensing:=lidar", f"_start:={START[0]},{START[1]},0", "_goal:=-4,-3")
-    start("/usr/bin/python3", str(ROOT / "test/wheels.py"))
-    start("roslaunch", str(ROOT / "launch/robot.launch"), "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic", "speech:=false",
-          "rviz:=false", f"out:={folder}", "feedback_parameters:={listener: topic}")
-    try:
-        person = subprocess.run(["/usr/bin/python3", "-c", PERSON, *map(str, GOAL)], env=dict(os.environ, **master),
-                                capture_output=True, text=True, timeout=400)
-    finally:
-        for process in reversed(processes):
-            process.terminate()
-        for process in processes:
-            process.wait(30)
-        log.close()
-    assert person.returncode == 0, person.stderr + (folder / "log").read_text()[-5000:]
-    return dict(json.loads(person.stdout), log=(folder / "log").read_text()[-5000:])
+    with Programs(master, folder / "log") as programs:
+        programs.run("rosparam", "set", "use_sim_time", "true")
+        programs.start("rosrun", "navvi_sim", "sim_node", "navvi/command:=/robot/command", "odom:=/robot/odom",
+                       *(f"{topic}:=/truth/{topic}" for topic in TRUTH), f"_world:={world}", "_sensing:=lidar",
+                       f"_start:={START[0]},{START[1]},0", "_goal:=-4,-3")
+        programs.start("/usr/bin/python3", ROOT / "test/wheels.py")
+        programs.launch("robot.launch", "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic", "speech:=false", "rviz:=false",
+                        f"out:={folder}", "feedback_parameters:={listener: topic}")
+        told = programs.person("-c", PERSON, *GOAL, seconds=400)
+    return dict(json.loads(told), log=programs.log.read_text()[-5000:])
 
 
 def test_a_place_behind_what_is_seen_is_refused_however_often_a_program_sends_it(led):

@@ -2,7 +2,6 @@
 import importlib.machinery
 import importlib.util
 import os
-import pathlib
 import pty
 import re
 import signal
@@ -15,7 +14,8 @@ import rosbag
 import rospy
 from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent, TrialState
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import ROOT, eventually
+
 SCRIPT = ROOT / "navvi_ws/src/navvi_study/python/navvi_study/watch.py"
 loader = importlib.machinery.SourceFileLoader("watch_session", str(SCRIPT))
 watch = importlib.util.module_from_spec(importlib.util.spec_from_loader("watch_session", loader))
@@ -186,10 +186,7 @@ def spoken(tmp_path):
         'GenericLanguage "en" "en" "utf-8"\nAddVoice "en" "MALE1" "en"\n')
     server = subprocess.Popen(["speech-dispatcher", "-s", "-c", "unix_socket", "-S", home / "socket", "-C", home, "-L", home,
                                "-P", home / "pid", "-t", "0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    deadline = time.monotonic() + 10
-    while not (home / "socket").exists():
-        assert time.monotonic() < deadline, "speech-dispatcher did not start"
-        time.sleep(0.1)
+    assert eventually((home / "socket").exists, 10), "speech-dispatcher did not start"
     yield home
     server.terminate()
     server.wait()
@@ -210,21 +207,10 @@ def test_without_speech_dispatcher_that_is_said(trial, tmp_path):
     assert process.returncode == 2 and "speech-dispatcher cannot be used" in text and "speech:=false" in text
 
 
-def test_a_running_session_is_found_and_told_to_its_end(tmp_path):
-    env = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    env["TMPDIR"] = str(tmp_path)  # where watch looks for sessions; another may run beside the test
-    session = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", "world:=training", "limit:=25",
-                                f"out:={tmp_path}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=env,
-                               start_new_session=True)
-    try:
-        for line in session.stdout:
-            if "has begun" in line:
-                break
-        text = navvi_watch(TMPDIR=str(tmp_path)).communicate(timeout=300)[0]
-    finally:
-        if session.poll() is None:
-            os.killpg(session.pid, signal.SIGINT)
-        session.communicate(timeout=30)
+def test_a_running_session_is_found_and_told_to_its_end(session, tmp_path):
+    # Where watch looks for sessions; another may run beside the test.
+    session("world:=training", "limit:=25", TMPDIR=str(tmp_path)).wait_until_begun()
+    text = navvi_watch(TMPDIR=str(tmp_path)).communicate(timeout=300)[0]
     assert "Follow the path" in text and "Said: " in text, text
     assert "The trial has ended: timeout" in text and text.endswith("The session has ended.\n"), text
 

@@ -7,6 +7,7 @@ Exit codes
 """
 import os
 import sys
+from types import SimpleNamespace
 
 from navvi_cli import places
 from navvi_cli.parser import add_actions
@@ -19,7 +20,7 @@ from navvi_study.errors import StudyError  # noqa: E402
 
 
 def arguments(parser):
-    add_actions(parser, **{name: _guarded(action) for name, action in ACTIONS.items()})
+    add_actions(parser, **{name: _guarded(name, action) for name, action in ACTIONS.items()})
 
 
 def run(args):
@@ -46,24 +47,20 @@ def _draw(world, words, path, driven=()):
         raise StudyError(problem.sentence or f"{world} cannot be drawn.") from None
 
 
-def _guarded(action):
+def _guarded(name, action):
     """The action, with the product's programs, and its errors as the command prints them."""
-    class Guarded(action):
-        __doc__ = action.__doc__
+    def guarded(args):
+        from navvi_cli.version import version
+        from navvi_cli.workspace import shell
+        if places.WORKSPACE and name in ("report", "rehearse"):
+            shell("install_packages", "report")
+        os.umask(0o077)  # what a study holds is its owner's alone
+        TOOLS.update(tool=_tool, version=version, navvi=places.ROOT / "navvi", draw=_draw)
+        try:
+            return action(args)
+        except StudyError as problem:
+            fail(str(problem), 2)
+        except ModuleNotFoundError as missing:
+            fail(f"the report needs the package python3-{missing.name}; \"sudo apt install python3-{missing.name}\" installs it.", 2)
 
-        @staticmethod
-        def run(args):
-            from navvi_cli.version import version
-            from navvi_cli.workspace import shell
-            if places.WORKSPACE and action.__name__ in ("Report", "Rehearse"):
-                shell("install_packages", "report")
-            os.umask(0o077)  # what a study holds is its owner's alone
-            TOOLS.update(tool=_tool, version=version, navvi=places.ROOT / "navvi", draw=_draw)
-            try:
-                return action.run(args)
-            except StudyError as problem:
-                fail(str(problem), 2)
-            except ModuleNotFoundError as missing:
-                fail(f"the report needs the package python3-{missing.name}; \"sudo apt install python3-{missing.name}\" installs it.", 2)
-
-    return Guarded
+    return SimpleNamespace(__doc__=action.__doc__, arguments=action.arguments, run=guarded)

@@ -1,21 +1,27 @@
-"""The actions of `./navvi study`: each a class with its help, its arguments and run(). Nothing here knows how programs are built."""
-
+"""The actions of `./navvi study`: each a function with its help and its arguments. Nothing here knows how programs are built."""
 from .errors import StudyError
 
 # Set by the command: tool(PACKAGE, PROGRAM) builds a program and returns its path; navvi and version are of the product.
 TOOLS = {}
+ACTIONS = {}  # by name
 
 
-def plan_argument(parser):
-    parser.add_argument("plan", metavar="PLAN", help="the study's YAML file; all that is recorded is kept in the folder beside it that bears the study's name.")
+def action(*given):
+    """Makes a function an action of ./navvi study, as parser.add_actions takes it; its docstring is the help. \\param given  its arguments"""
+    def made(run):
+        run.run, run.arguments = run, lambda parser: [parser.add_argument(*words, **more) for words, more in given]
+        ACTIONS[run.__name__.rstrip("_")] = run
+        return run
+    return made
 
 
-def participant_argument(parser):
-    parser.add_argument("participant", metavar="PARTICIPANT", help="a code of the plan, such as sub-03.")
+def argument(*words, **more):
+    return words, more
 
 
-def only_argument(parser):
-    parser.add_argument("--only", metavar="MEASURE", help="only the tables, and the figure of one measure, such as time, as SVG.")
+PLAN = argument("plan", metavar="PLAN", help="the study's YAML file; all that is recorded is kept in the folder beside it that bears the study's name.")
+PARTICIPANT = argument("participant", metavar="PARTICIPANT", help="a code of the plan, such as sub-03.")
+ONLY = argument("--only", metavar="MEASURE", help="only the tables, and the figure of one measure, such as time, as SVG.")
 
 
 def opened(args):
@@ -23,7 +29,9 @@ def opened(args):
     return Study.of(args.plan)
 
 
-class Check:
+@action(PLAN, argument("--no-worlds", action="store_true", help="leave the worlds out, which takes some seconds each."),
+        argument("--pictures", action="store_true", help="draw each world from above, as SVG in the folder worlds of the study."))
+def check(args):
     """Print the whole schedule of a study before anything starts.
 
     The file is read strictly; then follow conditions, the order of each
@@ -34,29 +42,21 @@ class Check:
     0: the plan can be run. 1: it can, and its sets of worlds are not alike.
     2: it cannot, and why.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        parser.add_argument("--no-worlds", action="store_true", help="leave the worlds out, which takes some seconds each.")
-        parser.add_argument("--pictures", action="store_true", help="draw each world from above, as SVG in the folder worlds of the study.")
-
-    @staticmethod
-    def run(args):
-        from . import overview, plan_file, worlds
-        planned = plan_file.load(args.plan)
-        print("\n".join(overview.schedule(planned)))
-        if args.no_worlds:
-            return 0
-        worlds.require_things(planned, TOOLS["tool"]("navvi_sim", "world_tool"))
-        lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
-        print("\n".join(["", *lines]))
-        for picture in worlds.pictures(planned, TOOLS["draw"]) if args.pictures else []:
-            print(f"navvi: written: {picture}")
-        return 0 if alike else 1
+    from . import overview, plan_file, worlds
+    planned = plan_file.load(args.plan)
+    print("\n".join(overview.schedule(planned)))
+    if args.no_worlds:
+        return 0
+    worlds.require_things(planned, TOOLS["tool"]("navvi_sim", "world_tool"))
+    lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
+    print("\n".join(["", *lines]))
+    for picture in worlds.pictures(planned, TOOLS["draw"]) if args.pictures else []:
+        print(f"navvi: written: {picture}")
+    return 0 if alike else 1
 
 
-class Freeze:
+@action(PLAN, argument("--reason", metavar="TEXT", help="why a plan that was frozen has changed."))
+def freeze(args):
     """Fix the plan: its hash, the version of NavVI, outcome and exclusions.
 
     Nothing is recorded before. A plan that changes later must be frozen again
@@ -66,27 +66,21 @@ class Freeze:
     Exit codes
     0: frozen. 2: a wrong plan, or nothing to freeze.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        parser.add_argument("--reason", metavar="TEXT", help="why a plan that was frozen has changed.")
-
-    @staticmethod
-    def run(args):
-        from . import overview, preregistration, worlds
-        study = opened(args)
-        if any(map(study.plan.world_file, study.plan.worlds)):
-            worlds.require_things(study.plan, TOOLS["tool"]("navvi_sim", "world_tool"))
-        changes = study.freeze(TOOLS["version"](), args.reason)
-        print(f"navvi: the plan is frozen: {study.plan.hash()}")
-        for change in changes or []:
-            print(f"  changed: {change}")
-        print("\n".join(overview.broken_off(study.plan)))
-        print(f"navvi: written: {preregistration.write(study)}")
+    from . import overview, preregistration, worlds
+    study = opened(args)
+    if any(map(study.plan.world_file, study.plan.worlds)):
+        worlds.require_things(study.plan, TOOLS["tool"]("navvi_sim", "world_tool"))
+    changes = study.freeze(TOOLS["version"](), args.reason)
+    print(f"navvi: the plan is frozen: {study.plan.hash()}")
+    for change in changes or []:
+        print(f"  changed: {change}")
+    print("\n".join(overview.broken_off(study.plan)))
+    print(f"navvi: written: {preregistration.write(study)}")
 
 
-class Next:
+@action(PLAN, PARTICIPANT, argument("--typed", action="store_true", help="questionnaires are read aloud by the experimenter and answered in this terminal."),
+        argument("--session", action="store_true", help="go on to the end of the session, without a wait for the next command."))
+def next_(args):
     """Start the next thing that a participant does.
 
     Consent, calibration, practice, a trial, a questionnaire or a break: what comes
@@ -98,33 +92,24 @@ class Next:
     Exit codes
     0: done. 1: broken off. 2: not allowed, and why. 3: nothing is left to do.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        participant_argument(parser)
-        parser.add_argument("--typed", action="store_true", help="questionnaires are read aloud by the experimenter and answered in this terminal.")
-        parser.add_argument("--session", action="store_true", help="go on to the end of the session, without a wait for the next command.")
-
-    @staticmethod
-    def run(args):
-        study = opened(args)
-        study.progress().person(args.participant)
-        study.require_frozen()
-        session = _live_session(study, args.typed)
-        while True:
-            finished = _finished(study, args.participant)
-            step = session.next(args.participant)
-            if finished:
-                return 3
-            if step is None:
-                return 1
-            if not args.session or step.kind == "session_end":
-                return 0
-            session.runner.pause()
+    study = opened(args)
+    study.progress().person(args.participant)
+    study.require_frozen()
+    session = _live_session(study, args.typed)
+    while True:
+        finished = _finished(study, args.participant)
+        step = session.next(args.participant)
+        if finished:
+            return 3
+        if step is None:
+            return 1
+        if not args.session or step.kind == "session_end":
+            return 0
+        session.runner.pause()
 
 
-class Stop:
+@action(PLAN, PARTICIPANT)
+def stop(args):
     """End what is running of a participant, as Ctrl-C would.
 
     For a session that goes on after its "study next" was killed. Its trial is kept
@@ -133,20 +118,13 @@ class Stop:
     Exit codes
     0: ended, or nothing was running. 2: not planned, or it does not end.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        participant_argument(parser)
-
-    @staticmethod
-    def run(args):
-        study = opened(args)
-        ended = study.stop(study.progress().person(args.participant).name)
-        print("navvi: ended: " + ", ".join(f"{pid} ({name})" for pid, name in ended.items()) + "." if ended else f"navvi: nothing of {args.participant} is running.")
+    study = opened(args)
+    ended = study.stop(study.progress().person(args.participant).name)
+    print("navvi: ended: " + ", ".join(f"{pid} ({name})" for pid, name in ended.items()) + "." if ended else f"navvi: nothing of {args.participant} is running.")
 
 
-class Run:
+@action(PLAN, ONLY)
+def run(args):
     """Lead all simulated participants through the plan, live, to the report.
 
     For a plan whose operator is simulated: sessions as with people, with all nodes,
@@ -155,44 +133,35 @@ class Run:
     Exit codes
     0: done, and the report is written. 1: broken off. 2: not allowed, and why.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        only_argument(parser)
-
-    @staticmethod
-    def run(args):
-        study = opened(args)
-        study.require_frozen()
-        if study.plan.operator != "simulated":
-            raise StudyError(f"the operator of the plan is \"{study.plan.operator}\"; study run is for simulated, and \"study next\" leads a person.")
-        session = _live_session(study, typed=False)
-        for name in study.plan.participants:
-            while not _finished(study, name):
-                if session.next(name) is None:
-                    return 1
-        _write_report(study, args.only, rehearsed=False)
-        return 0
+    study = opened(args)
+    study.require_frozen()
+    if study.plan.operator != "simulated":
+        raise StudyError(f"the operator of the plan is \"{study.plan.operator}\"; study run is for simulated, and \"study next\" leads a person.")
+    session = _live_session(study, typed=False)
+    for name in study.plan.participants:
+        while not _finished(study, name):
+            if session.next(name) is None:
+                return 1
+    _write_report(study, args.only, rehearsed=False)
+    return 0
 
 
-class Status:
+@action(PLAN)
+def status(args):
     """Print how far each participant is, and what comes next.
 
     Exit codes
     0: printed. 2: a wrong plan, or a damaged record.
     """
-
-    arguments = staticmethod(plan_argument)
-
-    @staticmethod
-    def run(args):
-        from . import overview
-        study = opened(args)
-        print("\n".join(overview.status(study, study.progress())))
+    from . import overview
+    study = opened(args)
+    print("\n".join(overview.status(study, study.progress())))
 
 
-class Exclude:
+@action(PLAN, argument("what", metavar="TRIAL", help="a trial by its name, such as sub-03/trial-20260101T120000Z, or the code of a participant."),
+        argument("--reason", metavar="TEXT", required=True, help="why, in words."),
+        argument("--no-replacement", action="store_true", help="no other trial takes its place."))
+def exclude(args):
     """Write that a trial, or a participant, does not count.
 
     Nothing is deleted: a row is appended that names who, when and why, and holds
@@ -201,34 +170,25 @@ class Exclude:
     Exit codes
     0: written. 2: no such trial, or excluded before.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        parser.add_argument("what", metavar="TRIAL", help="a trial by its name, such as sub-03/trial-20260101T120000Z, or the code of a participant.")
-        parser.add_argument("--reason", metavar="TEXT", required=True, help="why, in words.")
-        parser.add_argument("--no-replacement", action="store_true", help="no other trial takes its place.")
-
-    @staticmethod
-    def run(args):
-        reason = _reason(args.reason)
-        study = opened(args)
-        progress = study.progress()
-        if args.what in progress.people:
-            if progress.people[args.what].excluded:
-                raise StudyError(f"{args.what} is excluded already: {progress.people[args.what].excluded}.")
-            study.journal.append("exclude", participant=args.what, reason=reason, rule=False)
-            print(f"navvi: {args.what} does not count: {reason}.")
-            return
-        person, attempt = progress.find(args.what)
-        if attempt.excluded and not attempt.dropped_out:
-            raise StudyError(f"{args.what} is excluded already: {attempt.excluded}.")
-        study.journal.append("exclude", participant=person.name, step=attempt.step, attempt=attempt.number, trial=attempt.trial, reason=reason,
-                             rule=False, replace=not args.no_replacement)
-        print(f"navvi: {person.name}/{attempt.trial} does not count: {reason}." + ("" if args.no_replacement else " Another world takes its place."))
+    reason = _reason(args.reason)
+    study = opened(args)
+    progress = study.progress()
+    if args.what in progress.people:
+        if progress.people[args.what].excluded:
+            raise StudyError(f"{args.what} is excluded already: {progress.people[args.what].excluded}.")
+        study.journal.append("exclude", participant=args.what, reason=reason, rule=False)
+        print(f"navvi: {args.what} does not count: {reason}.")
+        return
+    person, attempt = progress.find(args.what)
+    if attempt.excluded and not attempt.dropped_out:
+        raise StudyError(f"{args.what} is excluded already: {attempt.excluded}.")
+    study.journal.append("exclude", participant=person.name, step=attempt.step, attempt=attempt.number, trial=attempt.trial, reason=reason,
+                         rule=False, replace=not args.no_replacement)
+    print(f"navvi: {person.name}/{attempt.trial} does not count: {reason}." + ("" if args.no_replacement else " Another world takes its place."))
 
 
-class Withdraw:
+@action(PLAN, PARTICIPANT, argument("--data", metavar="delete|keep", required=True, choices=("delete", "keep"), help="what was recorded."))
+def withdraw(args):
     """Write that a participant has withdrawn, and delete or keep what there is.
 
     Deleted are trials, answers, notes and settings; the record keeps the code, and
@@ -237,65 +197,50 @@ class Withdraw:
     Exit codes
     0: written. 2: not planned, or withdrawn before.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        participant_argument(parser)
-        parser.add_argument("--data", metavar="delete|keep", required=True, choices=("delete", "keep"), help="what was recorded.")
-
-    @staticmethod
-    def run(args):
-        study = opened(args)
-        person = study.progress().person(args.participant)
-        if person.withdrawn == "delete" or person.withdrawn == args.data:
-            raise StudyError(f"{person.name} has withdrawn already.")
-        with study.claimed(person.name):
-            study.journal.append("withdraw", participant=person.name, data=args.data)
-        study.finish_erasing()
-        print(f"navvi: {person.name} has withdrawn; what was recorded is {'deleted' if args.data == 'delete' else 'kept'}.")
+    study = opened(args)
+    person = study.progress().person(args.participant)
+    if person.withdrawn == "delete" or person.withdrawn == args.data:
+        raise StudyError(f"{person.name} has withdrawn already.")
+    with study.claimed(person.name):
+        study.journal.append("withdraw", participant=person.name, data=args.data)
+    study.finish_erasing()
+    print(f"navvi: {person.name} has withdrawn; what was recorded is {'deleted' if args.data == 'delete' else 'kept'}.")
 
 
-class Table:
+@action(PLAN)
+def table(args):
     """Write trials.csv and answers.csv, with a JSON file that describes each column.
 
     Exit codes
     0: written. 2: a wrong plan, or a damaged record.
     """
-
-    arguments = staticmethod(plan_argument)
-
-    @staticmethod
-    def run(args):
-        from . import table
-        study = opened(args)
-        for path in table.write(study, study.progress(), _figures()):
-            print(f"navvi: written: {path}")
+    from . import table
+    study = opened(args)
+    for path in table.write(study, study.progress(), _figures()):
+        print(f"navvi: written: {path}")
 
 
-class Verify:
+@action(PLAN)
+def verify(args):
     """Count each trial's summary again, from its journal and from its bag.
 
-    A line a trial: whether journal, bag and the row of trials.csv are equal; a line a
-    participant: how many of the notes and answers that were written are read.
+    A line a trial: whether its files are as they were when it ended, by the sums in
+    the study's journal, and whether journal, bag and the row of trials.csv are equal;
+    a line a participant: how many of the notes and answers are read.
 
     Exit codes
     0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
     """
-
-    arguments = staticmethod(plan_argument)
-
-    @staticmethod
-    def run(args):
-        from . import verify
-        study = opened(args)
-        sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
-        lines, counts, lost = verify.notes_and_answers(study, study.progress())
-        print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
-        return 1 if bad or lost else 0
+    from . import verify
+    study = opened(args)
+    sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
+    lines, counts, lost = verify.notes_and_answers(study, study.progress())
+    print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
+    return 1 if bad or lost else 0
 
 
-class Export:
+@action(PLAN, argument("--bids", action="store_true", help="the form, the one there is."))
+def export(args):
     """Write the study as a data set of Motion-BIDS: each trial's way and events.
 
     The folder bids of the study is written anew. Nothing in it has a date.
@@ -303,20 +248,13 @@ class Export:
     Exit codes
     0: written. 2: a wrong plan, or a record that cannot be read.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        parser.add_argument("--bids", action="store_true", help="the form, the one there is.")
-
-    @staticmethod
-    def run(args):
-        from . import export
-        study = opened(args)
-        print(f"navvi: written: {export.write(study, study.progress(), export.way_of)}")
+    from . import export
+    study = opened(args)
+    print(f"navvi: written: {export.write(study, study.progress(), export.way_of)}")
 
 
-class Report:
+@action(PLAN, ONLY, argument("--blind", action="store_true", help="write report-blind.html, with letters for the conditions, and no table."))
+def report(args):
     """Write the study's report, one HTML file, besides its tables.
 
     It reports the participants, the measures by condition, the primary outcome and
@@ -325,19 +263,12 @@ class Report:
     Exit codes
     0: written. 2: a wrong plan, or a damaged record.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        only_argument(parser)
-
-    @staticmethod
-    def run(args):
-        study = opened(args)
-        _write_report(study, args.only, rehearsed=False)
+    study = opened(args)
+    _write_report(study.blinded() if args.blind else study, args.only, rehearsed=False)
 
 
-class Rehearse:
+@action(PLAN, ONLY)
+def rehearse(args):
     """Run the whole plan with simulated people, without ROS, and report.
 
     It proves that plan, record, tables and report work, in minutes; nothing is said
@@ -347,17 +278,9 @@ class Rehearse:
     Exit codes
     0: done. 2: the plan cannot be run, and why.
     """
-
-    @staticmethod
-    def arguments(parser):
-        plan_argument(parser)
-        only_argument(parser)
-
-    @staticmethod
-    def run(args):
-        from . import plan_file, rehearsal
-        planned = plan_file.load(args.plan)
-        _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
+    from . import plan_file, rehearsal
+    planned = plan_file.load(args.plan)
+    _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
 
 
 def _live_session(study, typed):
@@ -384,13 +307,13 @@ def _write_report(study, only, rehearsed):
     from .measures import MEASURES
     from .study import write_safely
     progress = study.progress()
-    files = table.write(study, progress, _figures())
+    files = [] if study.letters else table.write(study, progress, _figures())
     if not only:
         files.append(report.write(study, progress, rehearsed, worlds.picture_for(study.plan, TOOLS["draw"])))
     elif only not in MEASURES or only not in (measured := Analysis(study, progress)).asked():
         raise StudyError(f"--only is \"{only}\"; allowed is a measure with values, of: {', '.join(MEASURES)}.")
     else:
-        files.append(study.folder / f"{only}.svg")
+        files.append(study.folder / f"{only}{'-blind' if study.letters else ''}.svg")
         write_safely(files[-1], figures.by_condition(measured, only))
     for path in files:
         print(f"navvi: written: {path}")
@@ -402,6 +325,3 @@ def _reason(words):
         return checked.text(journal.plain(words))
     except ValueError as allowed:
         raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
-
-
-ACTIONS = {action.__name__.lower(): action for action in (Check, Freeze, Next, Stop, Run, Status, Exclude, Withdraw, Table, Verify, Export, Report, Rehearse)}

@@ -49,7 +49,7 @@ class Contrast:
 
 class Analysis:
     def __init__(self, study, progress):
-        self.plan = progress.plan
+        self.plan, self.blind = progress.plan, bool(study.letters)
         rows = [row for row in table.trials(study, progress) if row["counts"] in ("yes", measures.DROP_OUT)]
         self.trials = pd.DataFrame(rows, columns=list(rows[0]) if rows else ["participant", "group", "condition", "order", "result"])
         self.scores = pd.DataFrame(table.scores(study, progress), columns=["participant", "group", "condition", "order", "questionnaire", "score", "prorated"]).replace({"condition": "n/a"}, "at the end")
@@ -151,7 +151,8 @@ class Analysis:
         planned = {frozenset((one.first, one.second)): (one.first, one.second)
                    for one in sorted(self._questions(), key=lambda one: one.measure == name)}
         pairs = dict.fromkeys(frozenset(pair) for group in self.plan.groups for pair in itertools.combinations(group.conditions, 2))
-        listed = {frozenset(pair): pair for group in reversed(self.plan.groups) for pair in itertools.combinations(group.conditions, 2)}
+        listed = {frozenset(pair): pair for group in reversed(self.plan.groups)
+                  for pair in itertools.combinations(sorted(group.conditions) if self.blind else group.conditions, 2)}
         return [planned.get(pair, listed[pair]) for pair in pairs]
 
     def _questions(self):

@@ -120,9 +120,6 @@ class Section:
             raise StudyError(f"{file}: {path or 'the file'} is {_shown(values) if path else _kind(values)}; allowed is a mapping of keys.")
         self.values, self.taken = values, set()
 
-    def __contains__(self, key):
-        return key in self.values
-
     def take(self, key, kind, default=REQUIRED):
         """The value of the key as `kind` makes it; the default where the key is absent."""
         self.taken.add(key)

@@ -19,11 +19,6 @@ def williams(conditions):
     return rows if conditions % 2 == 0 else rows + [row[::-1] for row in rows]
 
 
-def latin_square(size):
-    """Row r, column c: each of 0 to size - 1 once in each row and each column."""
-    return [[(row + column) % size for column in range(size)] for row in range(size)]
-
-
 def allotted(seed, group, index, orders):
     """The place that is drawn for the participant: in blocks of as many participants as orders, so that each block has each order once."""
     block, within = divmod(index, orders)
@@ -36,5 +31,4 @@ def set_of(participant, condition, sets, orders):
     """Which set of worlds a participant meets under a condition. By participant it goes round the Latin square, and one further with
     each round of the orders, so that no set stays tied to a place in the order.
     \\param participant  from 0, in the group"""
-    row = (participant + participant // orders) % sets
-    return latin_square(sets)[row][condition % sets]
+    return (participant + participant // orders + condition) % sets

@@ -32,10 +32,10 @@ def write(study, progress, read_way):
                                                 "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})
     write_safely(folder / "README", f"{plan.title}\n\nA robot in a simulated warehouse, driven by a person who is guided by touch, speech and sounds. "
                  f"The acquisition (acq) is the condition. Plan: {plan.hash()}\n")
-    asked = plan.consent and SHARE in [item.name for item in plan.consent.items]
+    asked = plan.steps["consent"] and SHARE in [item.name for item in plan.steps["consent"].items]
     rows = [row for row in table.trials(study, progress) if row["counts"] == "yes" and (not asked or study.agreed(row["participant"], SHARE))]
     people = {row["participant"]: [row["group"], *table.about(study, progress.people[row["participant"]]).values()] for row in rows}
-    items = {f"person_{item.name}": {"Description": item.ask} for one in plan.at_begin for item in one.items}
+    items = {f"person_{item.name}": {"Description": item.ask} for one in plan.steps["at_begin"] for item in one.items}
     _tsv(folder / "participants.tsv", ["participant_id", "group", *items], [[_subject(name), *cells] for name, cells in sorted(people.items())])
     _json(folder / "participants.json", {**PARTICIPANTS, **items})
     runs = {}

@@ -96,6 +96,15 @@ class Journal:
             os.fsync(aside.fileno())
 
 
+def sum_of(path):
+    """SHA-256 of a file; empty where there is none."""
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError:
+        return ""
+
+
 def hash_of(row):
     content = {key: value for key, value in row.items() if key != "hash"}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()

@@ -1,6 +1,7 @@
 """What is compared between conditions, from the tables of a study."""
+import math
 from dataclasses import dataclass
-
+from statistics import NormalDist
 
 DROP_OUT = "drop-out"  # in the column counts
 # For which trials a measure is defined. Of those that count, which are reached or timed out; who broke one off is a drop-out.
@@ -73,6 +74,14 @@ def exposure(measure, row, per):
         return 1.0
     driven = number(row.get(column))
     return driven / one if driven else None
+
+
+def sample_size(effect, sd, power, equivalence=False):
+    """Participants of a paired t test, two-sided at 5 %, by the normal distribution with the correction of Guenther (The American Statistician 35,
+    1981); or of two one-sided tests at 5 %, whose bound is the effect, where there is no difference."""
+    z = NormalDist().inv_cdf
+    alpha = z(0.95 if equivalence else 0.975)
+    return math.ceil(((alpha + z((1 + power) / 2 if equivalence else power)) * sd / effect) ** 2 + alpha ** 2 / 2)
 
 
 def number(cell):

@@ -65,7 +65,7 @@ def status(study, progress):
     plan = progress.plan
     lines = []
     for person in progress.people.values():
-        trials = [step for step in person.steps if step.kind == "trial"]
+        trials = [step for step in person.steps if step.counts]
         driven = sum(any(attempt.counts for attempt in person.of(step)) for step in trials)
         step = progress.next(person)
         concealed = plan.order == "drawn" and not person.begun

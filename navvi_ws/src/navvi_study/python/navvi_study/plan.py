@@ -6,6 +6,7 @@ from pathlib import Path
 
 from . import checked
 from .errors import StudyError
+from .measures import number
 
 # What a condition switches, and the parameters of feedback_node that do it. Words for safety are never off.
 SWITCHES = {
@@ -15,6 +16,8 @@ SWITCHES = {
 }
 WORLD_FILES = (".yaml", ".sdf", ".world")
 LARGEST_WORLD = 20 << 20  # bytes, as world_tool reads
+# Of kinds of steps, what stands in a plan's values also where it is empty or not given; all others do not, so that plans without keep their hash.
+ALWAYS = {"practice", "pause", "calibrate", "consent", "questionnaire", "after_condition", "at_end", "trial", "probe"}
 # Given by the study itself to each session.
 OWN = {"feedback/locked", "trial/locked", "feedback/sounds/turn/learn", "feedback/sounds/turn/stopping_delay", "feedback/sounds/turn/stopping_spread"}
 
@@ -27,6 +30,16 @@ class World:
 
     def __str__(self):
         return f"{self.world} {self.seed}"
+
+
+def worlds_of(part, folder):
+    """`{world: NAME, seeds: [...]}`; a file is looked for beside the plan."""
+    world = part.take("world", checked.text)
+    if world.endswith(WORLD_FILES) and not (folder / world).is_file():
+        raise part.error("world", f"is \"{world}\", and {folder / world} is not a file; allowed are files beside the plan, and names of ./navvi world list")
+    worlds = tuple(World(world, seed) for seed in part.take("seeds", checked.numbered(checked.whole(0, 2**31 - 1))))
+    part.done()
+    return worlds
 
 
 @dataclass(frozen=True)
@@ -56,32 +69,6 @@ class Group:
 
 
 @dataclass(frozen=True)
-class Practice:
-    """Trials before what counts, until as many in a row as wanted meet the criterion, or `most` were driven."""
-    before: str = "study"  # study, session or condition
-    worlds: tuple = ()
-    in_a_row: int = 1
-    collisions: int = 0  # at most
-    most: int = 5
-
-
-@dataclass(frozen=True)
-class Pause:
-    """Between conditions."""
-    after: int = 1  # conditions
-    minutes: float = 5.0
-
-
-@dataclass(frozen=True)
-class Probes:
-    """A trial in each condition that stops unannounced, after a time between `earliest` and `latest` (s), and is asked about."""
-    earliest: float
-    latest: float
-    worlds: tuple
-    asks: object  # a Questionnaire
-
-
-@dataclass(frozen=True)
 class Rule:
     """A trial whose column is so does not count."""
     column: str
@@ -91,12 +78,7 @@ class Rule:
 
     def meets(self, row):
         cell = row.get(self.column, "n/a")
-        if self.one_of:
-            return cell in self.one_of
-        try:
-            return float(cell) > self.above
-        except ValueError:
-            return False
+        return cell in self.one_of if self.one_of else number(cell) is not None and number(cell) > self.above
 
 
 #: Hold in every plan, after its own: such a trial has no figures that could count.
@@ -111,6 +93,8 @@ class Question:
     second: str
     trials: str = ""  # "reached": of a measure that is defined for these alone, and the plan says so
     within: float = 0.0  # above 0: the two are equivalent if they differ by less; in the unit of the measure
+    effect: float = 0.0  # the difference that the sample is to show, likewise
+    sd: float = 0.0  # of the participants' differences, likewise
 
 
 @dataclass(frozen=True)
@@ -127,15 +111,8 @@ class Plan:
     conditions: tuple
     sets: tuple  # of tuples of worlds
     reserve: tuple
-    practice: Practice
-    probes: Probes
-    pause: Pause
-    calibrate: bool
+    steps: dict  # what the kinds of steps need, by key (steps/)
     lsl: bool
-    consent: object  # a Questionnaire or None
-    at_begin: tuple  # of Questionnaires
-    after_condition: tuple
-    at_end: tuple
     primary: Question
     secondary: tuple
     exposure: str  # what counts are divided by: a key of measures.EXPOSURES
@@ -166,13 +143,17 @@ class Plan:
     @property
     def worlds(self):
         """All that anybody may drive in."""
-        others = [part.worlds for part in (self.practice, self.probes) if part]
-        return [world for worlds in (*self.sets, self.reserve, *others) for world in worlds]
+        return [world for worlds in (*self.sets, self.reserve, *self.other_worlds.values()) for world in worlds]
+
+    @property
+    def other_worlds(self):
+        """Of steps that bring their own: by key."""
+        return {key: entry.worlds for key, entry in self.steps.items() if hasattr(entry, "worlds")}
 
     @property
     def asked(self):
         """Questionnaires whose answers are told in the report."""
-        return (*self.at_begin, *([self.probes.asks] if self.probes else []), *self.after_condition, *self.at_end)
+        return (*self.steps["at_begin"], *(entry.asks for entry in self.steps.values() if hasattr(entry, "asks")), *self.steps["after_condition"], *self.steps["at_end"])
 
     def world_file(self, world):
         """The file of a world that is no name; None for a name."""
@@ -181,15 +162,13 @@ class Plan:
     def values(self):
         """All that is planned, as JSON values; what a freeze keeps. Where the files are is no part of it, what is in them is."""
         values = _without_places(json.loads(json.dumps(asdict(self))))
-        if not self.probes:  # so that plans without keep their hash
-            del values["probes"]
+        values.update({key: entry for key, entry in values.pop("steps").items() if entry or key in ALWAYS})
+        values["minutes"] = {key: entry for key, entry in values["minutes"].items() if entry is not None or key in ALWAYS}
         del values["seed"]
         if self.exposure == "trial":
             del values["exposure"]
-        if not self.at_begin:
-            del values["at_begin"]
         for question in (values["primary"], *values["secondary"]):
-            for key in ("trials", "within"):
+            for key in ("trials", "within", "effect", "sd"):
                 if not question[key]:
                     del question[key]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}

@@ -1,10 +1,11 @@
 """Reads a plan from its YAML file, and finds everything that is wrong with the file alone."""
 from pathlib import Path
 
-from . import checked, measures, questionnaire
+from . import checked, measures
 from .checked import code, flag, list_of, number, numbered, one_of, text, whole
 from .errors import StudyError
-from .plan import OWN, SWITCHES, WORLD_FILES, Condition, Group, Pause, Plan, Practice, Probes, Question, Rule, World, shown
+from .plan import ALWAYS, OWN, SWITCHES, Condition, Group, Plan, Question, Rule, shown, worlds_of
+from .steps import KINDS
 
 
 def load(path):
@@ -15,10 +16,10 @@ def load(path):
     if len(conditions) < 1:
         raise StudyError(f"{path}: the key \"conditions\" is missing or empty.")
     worlds = root.section("worlds", required=True)
-    sets = tuple(tuple(_worlds(part, folder)) for _, part in worlds.sections("sets"))
-    reserve = tuple(_worlds(worlds.section("reserve", required=True), folder))
+    sets = tuple(worlds_of(part, folder) for _, part in worlds.sections("sets"))
+    reserve = worlds_of(worlds.section("reserve", required=True), folder)
     worlds.done()
-    questions = root.section("questionnaires")
+    minutes = root.section("minutes")
     outcomes = root.section("outcomes", required=True)
     stop = root.section("stop")
     plan = Plan(
@@ -29,17 +30,14 @@ def load(path):
         order=root.take("order", one_of("williams", "drawn", "listed"), "williams"),
         groups=tuple(_group(name, part, conditions) for name, part in root.sections("groups")),
         conditions=conditions, sets=sets, reserve=reserve,
-        practice=_practice(root.section("practice"), folder), probes=_probes(root.section("probes"), folder), pause=_pause(root.section("break")),
-        calibrate=root.take("calibrate", flag, False), lsl=root.take("lsl", flag, False),
-        consent=questionnaire.find(root.take("consent", text), folder) if "consent" in root else None,
-        at_begin=_questionnaires(folder, questions, "at_begin"), after_condition=_questionnaires(folder, questions, "after_condition"), at_end=_questionnaires(folder, questions, "at_end"),
+        lsl=root.take("lsl", flag, False), steps={key: entry for kind in KINDS for key, entry in kind.read(root, folder).items()},
         primary=_question(outcomes.section("primary", required=True), conditions),
         secondary=tuple(_question(part, conditions) for part in outcomes.items("secondary", [])),
         exposure=outcomes.take("exposure", one_of(*measures.EXPOSURES), "trial"),
         exclusions=tuple(_rule(part) for part in root.items("exclusions", [])),
         stop_after=stop.take("completed", whole(1, 10000), 0),
-        minutes=_minutes(root.section("minutes")))
-    for part in (questions, outcomes, stop, root):
+        minutes={**{kind.kind: minutes.take(kind.kind, number(0, 600), kind.usual if kind.kind in ALWAYS else None) for kind in KINDS if kind.timed}, "between": minutes.take("between", number(0, 600), 1.0)})
+    for part in (minutes, outcomes, stop, root):
         part.done()
     _check(root, plan)
     return plan
@@ -73,48 +71,6 @@ def _group(name, part, conditions):
     return group
 
 
-def _worlds(part, folder):
-    """`{world: NAME, seeds: [...]}`; a file is looked for beside the plan."""
-    world = part.take("world", text)
-    if world.endswith(WORLD_FILES) and not (folder / world).is_file():
-        raise part.error("world", f"is \"{world}\", and {folder / world} is not a file; allowed are files beside the plan, and names of ./navvi world list")
-    worlds = [World(world, seed) for seed in part.take("seeds", numbered(whole(0, 2**31 - 1)))]
-    part.done()
-    return worlds
-
-
-def _practice(part, folder):
-    if not part.values:
-        return None
-    practice = Practice(
-        before=part.take("before", one_of("study", "session", "condition"), "study"), in_a_row=part.take("in_a_row", whole(1, 20), 1),
-        collisions=part.take("collisions_at_most", whole(0, 1000), 0), most=part.take("most", whole(1, 50), 5),
-        worlds=tuple(_worlds(part.section("worlds", required=True), folder)))
-    part.done()
-    if practice.in_a_row > practice.most:
-        raise part.error("in_a_row", f"is more than \"most\", which is {practice.most}; at most that is allowed")
-    return practice
-
-
-def _probes(part, folder):
-    if not part.values:
-        return None
-    after = part.take("after", list_of(number(1, 86400)))
-    if len(after) != 2 or after[0] > after[1]:
-        raise part.error("after", "is not a pair; allowed are the earliest and the latest second, such as [20, 60]")
-    probes = Probes(*after, tuple(_worlds(part.section("worlds", required=True), folder)), questionnaire.find(part.take("ask", text, "probe"), folder))
-    part.done()
-    return probes
-
-
-def _pause(part):
-    if not part.values:
-        return None
-    pause = Pause(part.take("after", whole(1, 20), 1), part.take("minutes", number(0, 600)))
-    part.done()
-    return pause
-
-
 def _rule(part):
     allowed = part.take("is", list_of(text), None)
     above = part.take("above", number(-1e9, 1e9), None)
@@ -138,21 +94,11 @@ def _question(part, conditions):
         whole = ", ".join(name for name, one in measures.MEASURES.items() if one.of != measures.REACHED)
         raise part.error("measure", f"is {measure}, which is defined for {defined} alone; allowed are \"trials: reached\" beside it, by which "
                          f"the plan leaves the others out, and the measures {whole}")
-    within = part.take("equivalent_within", number(1e-6, 1e6), 0.0)
+    within, effect, sd = (part.take(key, number(1e-6, 1e6), 0.0) for key in ("equivalent_within", "effect", "sd"))
     part.done()
-    return Question(measure, *pair, trials, within)
-
-
-def _questionnaires(folder, part, key):
-    return tuple(questionnaire.find(name, folder) for name in part.take(key, list_of(text), []))
-
-
-def _minutes(part):
-    """What a session's parts take, for the schedule."""
-    given = {"trial": None, "practice": None, "probe": None, "questionnaire": 3.0, "consent": 5.0, "calibrate": 6.0, "between": 1.0}
-    minutes = {name: part.take(name, number(0, 600), usual) for name, usual in given.items()}
-    part.done()
-    return minutes
+    if (sd or effect) and not (sd and bool(within) != bool(effect)):
+        raise StudyError(f"{part.file}: \"{part.path}\" needs \"sd\" with one of the keys \"effect\" and \"equivalent_within\" for a sample size.")
+    return Question(measure, *pair, trials, within, effect, sd)
 
 
 def _name(part, name):
@@ -177,8 +123,6 @@ def _check(root, plan):
     for group in plan.groups:
         if len(group.conditions) > len(plan.sets):
             raise root.error("worlds", f"has {len(plan.sets)} sets, and group {group.name} has {len(group.conditions)} conditions; allowed are as many sets or more")
-        if plan.probes and len(group.conditions) > len(plan.probes.worlds):
-            raise root.error("probes", f"has {len(plan.probes.worlds)} worlds, and group {group.name} has {len(group.conditions)} conditions; allowed are as many worlds or more")
         if plan.sessions > len(group.conditions):
             raise root.error("sessions", f"is {plan.sessions}, and group {group.name} has {len(group.conditions)} conditions; allowed is a condition a session or more")
         seen = {}
@@ -186,10 +130,13 @@ def _check(root, plan):
             same = seen.setdefault(tuple(sorted(plan.condition(name).arguments().items())), name)
             if same != name:
                 raise root.error("conditions", f"has {same} and {name}, which are alike; allowed are conditions that differ")
-    for key, asked in (("consent", [plan.consent] if plan.consent else []), ("questionnaires", [*plan.at_begin, *plan.after_condition, *plan.at_end])):
+    for kind in KINDS:
+        kind.check(root, plan)
+    consent = plan.steps["consent"]
+    for key, asked in (("consent", [consent] if consent else []), ("questionnaires", [one for key in ("at_begin", "after_condition", "at_end") for one in plan.steps[key]])):
         if any(item.probes for one in asked for item in one.items):
             raise root.error(key, "asks about a trial that stopped; allowed are such items below the plan's key \"probes\"")
-    agreed = [item.name for item in plan.consent.items if "yes" in item.choices] if plan.consent else []
+    agreed = [item.name for item in consent.items if "yes" in item.choices] if consent else []
     for one in plan.asked:
         if one.scope and one.scope not in agreed:
             raise root.error("questionnaires", f"has {one.name}, which needs \"yes\" to the item {one.scope} of the consent; the consent's items with a yes are: "

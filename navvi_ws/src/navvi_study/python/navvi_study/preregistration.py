@@ -3,7 +3,8 @@ import json
 from types import SimpleNamespace
 
 from . import overview
-from .measures import EXPOSURES, LEAST, MEASURES, RESAMPLES
+from .measures import EXPOSURES, LEAST, MEASURES, RESAMPLES, sample_size
+from .steps import KINDS
 from .study import write_safely
 
 MODELS = {
@@ -20,7 +21,8 @@ def write(study):
     """The page of the plan that was frozen last. Returns the file."""
     path = study.folder / "preregistration.md"
     # As attributes, like a Plan's; keys that a freeze leaves out have their default.
-    plan = json.loads(json.dumps({"exposure": "trial", "probes": None, "at_begin": [], **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
+    usual = {"exposure": "trial", "at_begin": [], **{kind.key: None for kind in KINDS if kind.key}}
+    plan = json.loads(json.dumps({**usual, **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
     write_safely(path, "\n".join(page(plan, study.progress().freezes)) + "\n")
     return path
 
@@ -29,7 +31,7 @@ def page(plan, freezes):
     """Lines of Markdown."""
     outcomes = [plan.primary, *plan.secondary]
     kinds = {MEASURES[one.measure].kind for one in outcomes if not getattr(one, "within", 0)}
-    practice, per_trial = plan.practice, EXPOSURES[plan.exposure][0]
+    per_trial = EXPOSURES[plan.exposure][0]
     sections = {
         "Hypotheses": [
             f"Primary: {hypothesis(plan.primary)}", *[f"Secondary: {hypothesis(one)}" for one in plan.secondary],
@@ -37,18 +39,16 @@ def page(plan, freezes):
         "Design": [
             "Each participant drives in all conditions of the group.", *overview.conditions(plan), *overview.balance(plan),
             f"Each condition has a set of {len(plan.sets[0])} worlds; sets go round the conditions by a Latin square. A trial ends at the goal or after {plan.limit:g} s.",
-            f"Sessions: {plan.sessions}. Calibration: {'yes' if plan.calibrate else 'no'}. Learning of a person's delay: {plan.learning}.",
-            *([f"Practice before each {practice.before}, until {practice.in_a_row} in a row reach the goal with collisions of at most {practice.collisions}, "
-               f"or {practice.most} were driven."] if practice else [])],
+            f"Sessions: {plan.sessions}. Calibration: {'yes' if plan.calibrate else 'no'}. Learning of a person's delay: {plan.learning}."],
         "Participants": [
             *[f"Group {group.name}: {len(group.participants)}, in the conditions {', '.join(group.conditions)}." for group in plan.groups],
+            *sample(plan),
             f"Nobody begins once {plan.stop_after} have completed the study." if plan.stop_after else "The study ends when all have taken part.",
             f"Consent: {plan.consent.title}." if plan.consent else "The plan asks for no consent."],
         "Measures": [
             *dict.fromkeys(f"{MEASURES[one.measure].label}, {per_trial if MEASURES[one.measure].kind == 'count' else MEASURES[one.measure].unit}, "
                            f"of {MEASURES[one.measure].of}." for one in outcomes),
-            *[f"Questionnaire: {one.title}." for one in (*plan.at_begin, *plan.after_condition, *plan.at_end)],
-            *(["Probes: a trial in each condition that stops unannounced, and questions about it."] if plan.probes else [])],
+            *[f"Questionnaire: {one.title}." for one in (*plan.at_begin, *plan.after_condition, *plan.at_end)]],
         "Analysis": [
             *[words for kind, words in MODELS.items() if kind in kinds],
             *([EQUIVALENCE] if any(getattr(one, "within", 0) for one in outcomes) else []),
@@ -59,11 +59,25 @@ def page(plan, freezes):
         "Exclusions": overview.broken_off(plan),
         "Changes since the plan was frozen first": [f"{row['utc'][:10]}, {row['reason']}: {change}" for row in freezes for change in row["changes"]],
     }
+    for section, sentence in (told for kind in KINDS for told in kind.registered(plan)):
+        sections[section].append(sentence)
     lines = [f"# {plan.title}: pre-registration", "",
              f"Study {plan.study}; the plan was frozen on {freezes[-1]['utc'][:10]} as {freezes[-1]['plan']}, with NavVI {freezes[-1]['version']}."]
     for heading, sentences in sections.items():
         lines += ["", f"## {heading}", "", *[f"- {sentence}" for sentence in sentences]] if sentences else []
     return lines
+
+
+def sample(plan):
+    """A sentence on the primary outcome; none where the plan has no effect and variance."""
+    one, planned = plan.primary, sum(len(group.participants) for group in plan.groups)
+    sd, within = getattr(one, "sd", 0), getattr(one, "within", 0)
+    if not sd:
+        return []
+    effect, unit = within or one.effect, MEASURES[one.measure].unit
+    few, many = (sample_size(effect, sd, power, bool(within)) for power in (0.8, 0.9))
+    return [f"Sample size: {'equivalence within' if within else 'a difference of'} {effect:g} ({unit}), where participants' differences have an SD of {sd:g}, is shown with "
+            f"80 % power by {few} participants, with 90 % by {many}; {planned} are planned."]
 
 
 def hypothesis(one):

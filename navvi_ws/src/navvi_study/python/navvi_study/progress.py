@@ -12,9 +12,7 @@ class Attempt:
     number: int  # from 1
     world: str
     seed: int
-    begun_utc: str
-    begun_ns: int
-    ended_ns: int = None
+    ended: bool = False
     trial: str = ""  # its folder's name; empty where no trial began
     result: str = ""  # empty until it has ended
     collisions: float = None
@@ -23,10 +21,7 @@ class Attempt:
     excluded_by: str = ""
     replaced: bool = True  # another attempt takes its place
     dropped_out: bool = False  # the person or the experimenter ended it
-
-    @property
-    def ended(self):
-        return self.ended_ns is not None
+    sums: dict = field(default_factory=dict)  # SHA-256 of its trial's files when it ended, by name; none in journals of before
 
     @property
     def counts(self):
@@ -43,6 +38,10 @@ class Participant:
     excluded: str = ""
     withdrawn: str = ""  # keep or delete
     erased: bool = False
+
+    def step(self, name):
+        """None where the plan has none of that name."""
+        return next((step for step in self.steps if step.name == name), None)
 
     def of(self, step):
         return [attempt for attempt in self.attempts if attempt.step == step.name]
@@ -80,22 +79,10 @@ class Progress:
         """The step that comes next; None where nothing is left, or nothing may be done."""
         if person.withdrawn or person.excluded or person.refused:
             return None
-        return next((step for step in person.steps if not self.finished(person, step)), None)
-
-    def finished(self, person, step):
-        if step.kind != "trial":
-            return step.name in person.done
-        return any(attempt.counts for attempt in person.of(step)) or self.given_up(person, step)
-
-    def given_up(self, person, step):
-        """Whether its trial does not count, and nothing shall replace it or no world is left for it."""
-        attempts = person.of(step)
-        if attempts and attempts[-1].excluded and not attempts[-1].replaced:
-            return True
-        return bool(attempts) and self.world_for(person, step) is None
+        return next((step for step in person.steps if not step.finished(self, person)), None)
 
     def complete(self, person):
-        return not person.withdrawn and not person.excluded and all(self.finished(person, step) for step in person.steps)
+        return not person.withdrawn and not person.excluded and all(step.finished(self, person) for step in person.steps)
 
     @property
     def over(self):
@@ -107,27 +94,7 @@ class Progress:
     def missing(self, person):
         """Trials that no world is left for, or that nothing shall replace."""
         return [step for step in person.steps
-                if step.kind == "trial" and self.finished(person, step) and not any(attempt.counts or attempt.dropped_out for attempt in person.of(step))]
-
-    def world_for(self, person, step):
-        """What the next attempt drives in: the planned world, unless it was met and the trial does not count; then one of the reserve."""
-        before = person.of(step)
-        if step.kind == "practice":
-            driven = sum(1 for attempt in person.attempts if attempt.trial and self._kind(person, attempt) == "practice")
-            return self.plan.practice.worlds[driven % len(self.plan.practice.worlds)]
-        if before and not before[-1].trial:  # none began: nobody has met it
-            return next(world for world in (step.world, *self.plan.reserve) if (world.world, world.seed) == (before[-1].world, before[-1].seed))
-        met = {(attempt.world, attempt.seed) for attempt in person.attempts}
-        return next((world for world in (step.world, *self.plan.reserve) if (world.world, world.seed) not in met), None)
-
-    def mastered(self, person, step):
-        """Whether the practice is over: True by its criterion, False where all tries are used up, None while it goes on."""
-        wanted = self.plan.practice
-        tries = [attempt for attempt in person.of(step) if attempt.trial]
-        good = [attempt.result == "reached" and attempt.collisions is not None and attempt.collisions <= wanted.collisions for attempt in tries]
-        if len(good) >= wanted.in_a_row and all(good[-wanted.in_a_row:]):
-            return True
-        return False if len(tries) >= wanted.most else None
+                if step.counts and step.finished(self, person) and not any(attempt.counts or attempt.dropped_out for attempt in person.of(step))]
 
     def find(self, trial):
         """Person and attempt of a trial, by its folder's name, or PARTICIPANT/NAME."""
@@ -139,21 +106,18 @@ class Progress:
             raise StudyError(f"\"{trial}\" names {len(found)} trials of this study; allowed is a trial's name from \"study status\", such as sub-01/trial-20260101T120000Z.")
         return found[0]
 
-    @staticmethod
-    def _kind(person, attempt):
-        return next(step.kind for step in person.steps if step.name == attempt.step)
-
     def _attempt(self, row):
         return next(attempt for attempt in self.people[row["participant"]].attempts
                     if (attempt.step, attempt.number) == (row["step"], row["attempt"]))
 
     def _begin(self, row):
         self.people[row["participant"]].attempts.append(Attempt(
-            row["step"], row["attempt"], row["world"], row["seed"], row["utc"], row["mono_ns"], replaces=row["replaces"]))
+            row["step"], row["attempt"], row["world"], row["seed"], replaces=row["replaces"]))
 
     def _end(self, row):
         attempt = self._attempt(row)
-        attempt.ended_ns, attempt.trial, attempt.result, attempt.collisions = row["mono_ns"], row["trial"], row["result"], row["collisions"]
+        attempt.ended, attempt.trial, attempt.result, attempt.collisions = True, row["trial"], row["result"], row["collisions"]
+        attempt.sums = row.get("sums", {})
 
     def _done(self, row):
         self.people[row["participant"]].done[row["step"]] = row

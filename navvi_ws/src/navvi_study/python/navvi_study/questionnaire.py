@@ -10,8 +10,7 @@ from .checked import code, list_of, number, one_of, text
 from .errors import StudyError
 from .journal import rows_of
 
-# Either in the sources, or installed.
-SHIPPED = [Path(__file__).resolve().parents[2] / "studies" / "questionnaires"]
+SHIPPED = Path(__file__).resolve().parents[2] / "studies" / "questionnaires"  # in the sources, or installed
 LONGEST = 80  # bytes of a sentence that the voice speaks
 DECLINED = "declined"  # rather not say
 PRORATED = 5  # items, from which on a mean may leave one out
@@ -85,10 +84,10 @@ class Questionnaire:
 
 def find(name, folder):
     """The file of that name beside the plan, or the one that ships. Raises StudyError."""
-    for place in [folder / name, folder / f"{name}.yaml", *[shipped / f"{name}.yaml" for shipped in SHIPPED]]:
+    for place in [folder / name, folder / f"{name}.yaml", SHIPPED / f"{name}.yaml"]:
         if place.is_file():
             return load(place)
-    shipped = sorted(path.stem for path in SHIPPED[0].glob("*.yaml"))
+    shipped = sorted(path.stem for path in SHIPPED.glob("*.yaml"))
     raise StudyError(f"the questionnaire \"{name}\" is not found; allowed are files in {folder}, and: {', '.join(shipped)}.")
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from urllib.parse import unquote
 
 from .journal import lines_of, rows_of
-
+from .measures import number
 
 FORMATS = {"<f8": "d", "<f4": "f", "<u4": "I"}  # of NumPy's types; all else are texts
 
@@ -20,10 +20,7 @@ class Row:
 
     def number(self, name):
         """None where the row has no such number."""
-        try:
-            return float(self.fields[name])
-        except (KeyError, ValueError):
-            return None
+        return number(self.fields.get(name))
 
 
 class Record:

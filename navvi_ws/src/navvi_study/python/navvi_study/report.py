@@ -10,16 +10,18 @@ import jinja2
 from . import figures, overview, preregistration, table, ways
 from .analysis import Analysis
 from .measures import MEASURES, REACHED, RESAMPLES, number
-from .session import why_nothing
 from .questionnaire import DECLINED
+from .session import why_nothing
+from .steps import KINDS
 from .study import write_safely
 
+BLIND = "The report is blinded: letters stand for the conditions, by a drawn key in blinding.json, and no table of cues tells them."
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 
 
 def write(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
     """Returns the file."""
-    path = study.folder / "report.html"
+    path = study.folder / ("report-blind.html" if study.letters else "report.html")
     write_safely(path, page(study, progress, rehearsed, picture))
     return path
 
@@ -27,7 +29,7 @@ def write(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
 def page(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
     """\\param picture  the SVG of a world and seed with driven ways; empty where it cannot be drawn"""
     analysis, plan = Analysis(study, progress), progress.plan
-    command = f"./navvi study {'rehearse' if rehearsed else 'report'} {Path(plan.file).name}"
+    command = f"./navvi study {'rehearse' if rehearsed else 'report'} {Path(plan.file).name}{' --blind' if study.letters else ''}"
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, undefined=jinja2.StrictUndefined)
     environment.tests["number_like"] = lambda cell: number(str(cell).split(" ")[0]) is not None
     environment.globals["filled"] = filled
@@ -40,10 +42,10 @@ def page(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
         plan=plan, rehearsed=rehearsed, opening=opening(progress), who=who(progress, primary), flow=flow(progress, primary), people=people(progress),
         trials=trials(progress), besides=besides(progress), excluded=excluded(progress), resamples=RESAMPLES,
         primary=answer(analysis, primary, False), secondary=[answer(analysis, one, True) for one in secondary], parts=parts,
-        outcomes=of_outcomes, conditions=overview.conditions(plan), models=preregistration.MODELS.values(), alike=[alike(analysis, name) for name in analysis.asked() if name not in (*asked, *of_outcomes)],
-        questionnaires=answered(study, progress), maps=maps(found, plan, picture, command), cues=cues(found, plan),
+        outcomes=of_outcomes, conditions=[BLIND] if study.letters else overview.conditions(plan), models=preregistration.MODELS.values(), alike=[alike(analysis, name) for name in analysis.asked() if name not in (*asked, *of_outcomes)],
+        questionnaires=answered(study, progress), maps=maps(found, plan, picture, command), cues=[] if study.letters else cues(found, plan),  # a condition without touch has no pulses
         exploratory=[contrast_row(analysis, one) for one in analysis.exploratory()], quality=quality(study, progress),
-        changes=[f"{row['utc']}, {row['reason']}: {change}" for row in progress.freezes for change in row["changes"]], command=command)
+        changes=[] if study.letters else [f"{row['utc']}, {row['reason']}: {change}" for row in progress.freezes for change in row["changes"]], command=command)
 
 
 def filled(head, rows):
@@ -116,7 +118,7 @@ def driven(progress, kind):
 
 
 def besides(progress):
-    counts = [(len(driven(progress, kind)), words) for kind, words in (("practice", "of practice"), ("probe", "with a probe"))]
+    counts = [(len(driven(progress, kind.kind)), kind.besides) for kind in KINDS if kind.besides]
     return ", ".join(f"{count} {words}" for count, words in counts if count)
 
 

@@ -7,10 +7,8 @@ import time
 import zlib
 
 from . import questionnaire
-from .design import drawn
 from .errors import StudyError
 from .journal import utc_now
-from .plan import shown
 from .study import write_safely
 
 DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; p: pause after this step; a: end the trial now."
@@ -72,7 +70,7 @@ class LiveRunner:
         if self.typed:
             ask_in_terminal(step.asks, items, answered, self.lines.next)
         elif self.study.plan.operator == "simulated":
-            simulate_answers(participant, step, items, answered)
+            step.simulate(participant, items, answered)
         else:
             self._ask_by_voice(participant, step, items, answered, lock)
 
@@ -91,9 +89,10 @@ class LiveRunner:
             self.lines.next()
         self.paused = False
 
-    def calibrate(self, participant, lock):
+    def command(self, words, participant, lock):
+        """A command of ./navvi that needs a person."""
         if self.study.plan.operator != "simulated":
-            self._run(["calibrate", f"person:={participant}"], participant, lock)
+            self._run(words, participant, lock)
 
     def close(self, folder):
         """Puts the trials of a session in order that was killed."""
@@ -195,9 +194,9 @@ class LoopRunner:
             raise StudyError(f"{participant}, {step}: {(result.stderr or result.stdout).strip()}")
 
     def ask(self, participant, step, items, answered, lock):
-        simulate_answers(participant, step, items, answered)
+        step.simulate(participant, items, answered)
 
-    def calibrate(self, participant, lock):
+    def command(self, words, participant, lock):
         pass
 
     def close(self, folder):
@@ -247,13 +246,6 @@ def allowed_words(item):
         return ", ".join(item.choices)
     step = "" if item.step == 1 else f" in steps of {item.step:g}"
     return f"{item.low:g}, {item.least}, to {item.high:g}, {item.most}{step}"
-
-
-def simulate_answers(participant, step, items, answered):
-    """Drawn, whatever was driven: they fill the tables, and mean nothing."""
-    for item in items:
-        source = drawn(participant, step.name, item.name)
-        answered(item, item.required or (questionnaire.DECLINED if source.random() < 0.02 else source.choice(item.values())))
 
 
 def person_of(participant, part):

@@ -1,5 +1,6 @@
 """A study on the disk: its plan, its journal, and the folders of its participants."""
 import contextlib
+import copy
 import dataclasses
 import fcntl
 import hashlib
@@ -8,12 +9,14 @@ import os
 import secrets
 import shutil
 import signal
+import string
 import time
 from pathlib import Path
 
 from . import plan_file
 from .errors import StudyError
 from .journal import Journal, append_line, lines_of, read_lines, rows_of, sync_folder, utc_now
+from .plan import Group
 from .progress import Progress
 
 # What each line of a participant's files holds at least.
@@ -24,6 +27,8 @@ FIELDS = {
 
 
 class Study:
+    letters = {}  # in place of the names of conditions, where the study is blinded
+
     def __init__(self, plan, folder=None):
         self.folder = Path(folder or plan.folder)
         self.seed_file = self.folder / "allocation.seed"
@@ -94,6 +99,27 @@ class Study:
         if changes := differences(before, self.plan.values()):
             raise StudyError("the plan has changed since it was frozen; undo that, or freeze it again with --reason. Changed:\n  " + "\n  ".join(changes))
 
+    def blinded(self):
+        """The same study to an analyst: letters for the conditions, by a key that is drawn once and kept."""
+        path, names = self.folder / "blinding.json", sorted(condition.name for condition in self.plan.conditions)
+        letters = json.loads(path.read_bytes()) if path.exists() else {}
+        if sorted(letters) != names:
+            letters = dict(zip(names, secrets.SystemRandom().sample(string.ascii_uppercase[:len(names)], len(names))))
+            write_safely(path, json.dumps(letters) + "\n")
+
+        def renamed(one):
+            """What has conditions; of an outcome in the order of the letters, as that of the plan tells them."""
+            if isinstance(one, Group):
+                return dataclasses.replace(one, conditions=tuple(letters[name] for name in one.conditions))
+            first, second = sorted((letters[one.first], letters[one.second]))
+            return dataclasses.replace(one, first=first, second=second)
+        other = copy.copy(self)
+        other.letters = letters
+        other.plan = dataclasses.replace(
+            self.plan, groups=tuple(map(renamed, self.plan.groups)), primary=renamed(self.plan.primary), secondary=tuple(map(renamed, self.plan.secondary)),
+            conditions=tuple(sorted((dataclasses.replace(one, name=letters[one.name]) for one in self.plan.conditions), key=lambda one: one.name)))
+        return other
+
     # One participant's own.
 
     @contextlib.contextmanager
@@ -154,11 +180,12 @@ class Study:
         return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name}
 
     def answers(self, participant):
-        return self.lines(participant, "answers")[0]
+        return [dict(row, condition=self.letters.get(row["condition"], row["condition"])) for row in self.lines(participant, "answers")[0]]
 
     def agreed(self, participant, item):
         """Whether the last answer to the item of the consent is yes."""
-        given = [row["answer"] for row in self.answers(participant) if self.plan.consent and (row["questionnaire"], row["item"]) == (self.plan.consent.name, item)]
+        consent = self.plan.steps["consent"]
+        given = [row["answer"] for row in self.answers(participant) if consent and (row["questionnaire"], row["item"]) == (consent.name, item)]
         return given[-1:] == ["yes"]
 
     def note(self, participant, attempt, row):

@@ -4,9 +4,9 @@ import io
 import json
 import subprocess
 
-from . import probe
 from .measures import DROP_OUT
 from .record import Record
+from .steps import KINDS
 from .study import write_safely
 
 # Set by the study; the others are those of each trial's summary.csv.
@@ -31,11 +31,10 @@ EVENTS = {
 ANSWERS = {
     "answer": "as given, or declined; pointed directions in whole degrees, counter-clockwise from straight ahead",
     "seconds": "from the question to the answer; of pointing, from the end of the question's words to the push; n/a where the experimenter typed",
-    "truth": "of a probe: the answer that was true where the trial stopped; n/a where nobody can tell, or within a metre of the place",
-    "error_deg": "of pointing: answer minus truth, in (-180, 180]", "correct": "of a probe's choice: yes or no",
+    **{name: words for kind in KINDS for name, (words, _) in kind.columns.items()},
 }
 UNITS = {"onset_s": "s", "duration_s": "s", "elapsed_s": "s", "robot_x_m": "m", "robot_y_m": "m", "goal_x_m": "m", "goal_y_m": "m", "seconds": "s",
-         "error_deg": "deg"}
+         **{name: unit for kind in KINDS for name, (_, unit) in kind.columns.items()}}
 
 
 def figures(count_trial):
@@ -47,12 +46,11 @@ def trials(study, progress):
     """Rows by column name; every attempt in which a trial began, of those who have not withdrawn their data."""
     rows = []
     for person in progress.people.values():
-        steps = {step.name: step for step in person.steps}
         notes, described_by = study.notes(person.name), about(study, person)
         for attempt in person.attempts:
             if not attempt.trial or person.withdrawn == "delete":
                 continue
-            step = steps[attempt.step]
+            step = person.step(attempt.step)
             summary = study.summary(person.name, attempt)
             mine = [note for note in notes if (note["step"], note["attempt"]) == (attempt.step, attempt.number)]
             row = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": step.session, "order": step.order,
@@ -68,12 +66,12 @@ def trials(study, progress):
 
 def about(study, person):
     """What the person answered at the begin, by column: person_ITEM, "n/a" where it was not asked."""
-    given = {(row["questionnaire"], row["item"]): row["answer"] for row in study.answers(person.name)} if study.plan.at_begin else {}
-    return {f"person_{item.name}": given.get((one.name, item.name), "n/a") for one in study.plan.at_begin for item in one.items}
+    given = {(row["questionnaire"], row["item"]): row["answer"] for row in study.answers(person.name)} if study.plan.steps["at_begin"] else {}
+    return {f"person_{item.name}": given.get((one.name, item.name), "n/a") for one in study.plan.steps["at_begin"] for item in one.items}
 
 
 def _counts(person, step, attempt):
-    if step.kind != "trial" or person.excluded:
+    if not step.counts or person.excluded:
         return "no"
     return "yes" if attempt.counts else DROP_OUT if attempt.dropped_out else "no"
 
@@ -114,19 +112,8 @@ def answers(study, progress):
             continue
         for row in study.answers(person.name):
             rows.append({"participant": person.name, "group": progress.plan.group_of(person.name).name, **{name: str(cell) for name, cell in row.items()},
-                         **_truth(study, person, row)})
+                         **(step.truth(study, person, row) if (step := person.step(row["step"])) else {})})
     return rows
-
-
-def _truth(study, person, row):
-    """Columns of an answer to a probe; none of another."""
-    step = next((step for step in person.steps if step.name == row["step"]), None)
-    item = next((item for item in step.asks.items if item.name == row["item"]), None) if step and step.kind == "probe" else None
-    if not item or not item.probes:
-        return {}
-    stopped = [attempt for attempt in person.of(step) if attempt.counts]
-    known = probe.truth(item, Record(study.attempt_folder(person.name, step.name, stopped[-1].number) / stopped[-1].trial)) if stopped else None
-    return {"truth": "n/a" if known is None else known, **probe.off(item, row["answer"], known)}
 
 
 def scores(study, progress):
@@ -150,7 +137,7 @@ def scores(study, progress):
 def write(study, progress, known):
     """\\param known  of figures()
     Returns the files that were written."""
-    files, known = [], known + [{"name": f"person_{item.name}", "meaning": item.ask} for one in study.plan.at_begin for item in one.items]
+    files, known = [], known + [{"name": f"person_{item.name}", "meaning": item.ask} for one in study.plan.steps["at_begin"] for item in one.items]
     for name, rows in (("trials", trials(study, progress)), ("answers", answers(study, progress)), ("events", events(study, progress))):
         columns = list(dict.fromkeys(column for row in rows for column in row)) or list(WHOSE)
         for path, content in ((study.folder / f"{name}.csv", as_csv(columns, rows)), (study.folder / f"{name}.json", described(columns, known))):

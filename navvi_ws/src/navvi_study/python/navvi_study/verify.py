@@ -1,7 +1,8 @@
-"""Whether bag, journal and table tell the same of each trial, and hold each note and answer."""
+"""Whether the files of each trial are as they were, bag, journal and table tell the same of it, and hold each note and answer."""
 import subprocess
 
 from . import table
+from .journal import sum_of
 from .study import FIELDS
 
 EQUAL = "equal"
@@ -14,7 +15,7 @@ def verify(study, progress, count_trial):
     for row in table.trials(study, progress):
         attempt = table.attempt_of(progress, row)
         folder = study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial
-        found = {"journal": _journal(count_trial, folder), "bag": _bag(count_trial, folder, row), "table": _table(study, row, attempt)}
+        found = {"files": _files(folder, attempt), "journal": _journal(count_trial, folder), "bag": _bag(count_trial, folder, row), "table": _table(study, row, attempt)}
         wrong = {name: words for name, words in found.items() if words != EQUAL and not words.startswith("no ")}
         bad += bool(wrong)
         sentences.append(f"{row['participant']}/{row['trial']}: " + ", ".join(f"{name} {words}" for name, words in found.items()) + ".")
@@ -35,6 +36,12 @@ def notes_and_answers(study, progress):
         sentences.append(f"{name}: " + ", ".join(f"{kind} {len(rows)} of {len(rows) + len(skipped)}" for kind, (rows, skipped) in found.items()) + ".")
         sentences += study.unread(name)
     return sentences, counts, lost
+
+
+def _files(folder, attempt):
+    """They are as they were when the trial ended."""
+    wrong = [name for name, known in attempt.sums.items() if sum_of(folder / name) != known]
+    return "differ: " + ", ".join(wrong) if wrong else EQUAL if attempt.sums else "no sums"
 
 
 def _journal(program, folder):

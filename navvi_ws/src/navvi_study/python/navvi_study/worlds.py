@@ -71,7 +71,7 @@ def compared(plan, driven):
     """Lines on the worlds, and whether the sets are alike."""
     lines, sets = ["The reference driver: way in m, turns that were told, how often a mover came within 5 m, time in s:"], {}
     for name, worlds in [*((f"set {at}", worlds) for at, worlds in enumerate(plan.sets, 1)), ("reserve", plan.reserve),
-                         ("practice", plan.practice.worlds if plan.practice else ()), ("probes", plan.probes.worlds if plan.probes else ())]:
+                         *plan.other_worlds.items()]:
         for world in worlds:
             row = driven[world]
             lines.append(f"  {name}: {world}: {row['result']}, way {float(row['shortest_path_m']):.1f}, turns {_turns(row):.0f}, movers {row['mover_proximity_count']}, time {float(row['elapsed_s']):.1f}.")

@@ -1,0 +1,47 @@
+"""The figures of the paper, and the latencies, as they stand beside ours."""
+import importlib.machinery
+import importlib.util
+
+from small_study import PACKAGE
+
+
+
+def script(name):
+    loader = importlib.machinery.SourceFileLoader(name, str(PACKAGE / "bench" / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
+def paper_bench():
+    return script("paper_bench")
+
+
+def test_latencies_are_whole_with_figures_of_others_beside_them_and_not_without_one():
+    bench = script("latency_bench")
+    own = {f"{name}_{figure}": "1" for name in bench.OWN for figure in ("p50_ms", "p99_ms", "max_ms", "count")}
+    chain = bench.Chain("a button, to the answer", 150)
+    assert not bench.whole([chain], own)
+    chain.begin()
+    chain.end([(chain.begun + 0.1, 'began "go on"')])
+    assert chain.longest == '+100 ms began "go on"'
+    assert bench.whole([chain], {**own, "learnt_count": "3"})
+    assert not bench.whole([chain], {key: value for key, value in own.items() if not key.startswith("words")})
+
+
+def test_each_claim_of_the_paper_names_a_test_that_is_there(capsys):
+    bench = paper_bench()
+    assert bench.claims() == 0
+    bench.CLAIMS.append(("a claim", "Nothing.that_" + "is_tested"))
+    assert bench.claims() == 1 and "THERE IS NO SUCH TEST" in capsys.readouterr().out
+
+
+def test_a_constant_of_the_paper_that_differs_is_counted(capsys, monkeypatch):
+    bench = paper_bench()
+    printed = {part: {} for part in bench.NODES}
+    for _, _, value, part, name in bench.CONSTANTS:
+        printed[part][name] = value
+    monkeypatch.setattr(bench, "parameters", printed.get)
+    assert bench.constants() == 0
+    printed["nav"]["alpha"] = 2.0
+    assert bench.constants() == 1 and "alpha of the heuristic: 1.0, 2.0, 2.0  DIFFERS" in capsys.readouterr().out

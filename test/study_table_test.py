@@ -1,0 +1,265 @@
+"""Studies without a session: tables, notes, answers, probes and export."""
+import functools
+import json
+import math
+import os
+import shutil
+import signal
+
+import pytest
+
+from small_study import Driver, EXAMPLE, begin, frozen, rest, small, trial_of, work, write_record  # noqa: F401
+from navvi_study import actions, export, journal, overview, progress, questionnaire, record, runner, schedule, study, table, verify  # noqa: E402
+from navvi_study.errors import StudyError  # noqa: E402
+from navvi_study.steps import probe  # noqa: E402
+
+
+FIGURES = [{"name": "elapsed_s", "unit": "s", "meaning": "simulated time from start to goal", "source": "the paper"}]
+
+
+def test_tables_describe_each_column_and_the_same_study_gives_the_same_bytes(work):
+    rest(work())
+    files = table.write(work.study, work.study.progress(), FIGURES)
+    before = [path.read_bytes() for path in files]
+    assert before == [path.read_bytes() for path in table.write(work.study, work.study.progress(), FIGURES)]
+    header = files[0].read_text().splitlines()[0].split(",")
+    described = json.loads(files[1].read_text())
+    assert list(described) == header and described["elapsed_s"]["Units"] == "s"
+    assert described["elapsed_s"]["Source"] == "the paper"
+    assert len(files[2].read_text().splitlines()) == 1 + 2 * 6
+
+
+def test_journal_bag_and_table_are_held_against_each_other(work, tmp_path):
+    rest(work())
+    state = work.study.progress()
+    programs = []
+    for name, code in (("good", 0), ("bad", 1)):
+        (tmp_path / name).write_text(f"#!/bin/sh\necho elapsed_s is 1 in the summary and 2 in the recount\n[ $1 = journal ] || exit {code}\n")
+        (tmp_path / name).chmod(0o755)
+        programs.append(tmp_path / name)
+    good, bad = programs
+    assert verify.verify(work.study, state, bad)[1] == 0, "nothing is counted where there is neither journal nor bag"
+    _, trial = trial_of(work.study)
+    write_record(trial)
+    (trial / "trial.bag").touch()
+    assert verify.verify(work.study, state, good)[1] == 0
+    sentences, differ = verify.verify(work.study, state, bad)
+    assert differ == 1 and "bag differs: elapsed_s is 1 in the summary and 2 in the recount" in sentences[0] and "journal equal" in sentences[0]
+
+
+def test_a_file_that_changed_after_its_trial_is_named(work):
+    rest(work())
+    attempt, trial = trial_of(work.study)
+    sentences, bad = verify.verify(work.study, work.study.progress(), "true")
+    assert bad == 0 and sentences[0] == f"sub-01/{attempt.trial}: files equal, journal no journal, bag no bag, table equal."
+    (trial / "summary.csv").write_text((trial / "summary.csv").read_text().replace("20.0", "19.0"))
+    sentences, bad = verify.verify(work.study, work.study.progress(), "true")
+    assert bad == 1 and "files differ: summary.csv," in sentences[0]
+    attempt.sums = {}
+    assert verify._files(trial, attempt) == "no sums", "as in journals of before"
+
+
+def test_a_trial_whose_bag_is_recorded_as_bad_agrees_without_one(tmp_path):
+    assert "recorded as bad" in verify._bag(None, tmp_path, {"bag": "bad"})
+    assert verify._bag(None, tmp_path, {"bag": "ok"}) == "is missing"
+
+
+def test_answers_that_were_given_are_not_asked_again(work):
+    begun = work()
+    asked = []
+
+    def ask(participant, step, items, answered, lock):
+        asked.append([item.name for item in items])
+        for item in items[:2]:
+            answered(item, "50")
+    begun.runner.ask = ask
+    begun.next("sub-01")
+    for _ in range(3):
+        begun.next("sub-01")
+    assert asked == [["mental", "physical", "temporal", "performance", "effort", "frustration"],
+                     ["temporal", "performance", "effort", "frustration"], ["effort", "frustration"]]
+    assert len(work.study.answers("sub-01")) == 6
+
+
+PROBES = ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3, 4]}}")
+
+
+@pytest.fixture
+def probed(tmp_path):
+    """A frozen study with probes, whose trials stop at (2, 1) m with a heading of 90 degrees, having begun at (0, 0); the goal is at (2, 6)."""
+    class Stopping(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            super().trial(participant, step, attempt, folder, lock)
+            trial = next(folder.iterdir())
+            rows = [(10, "TRIAL_START", "x=0;y=0"), (10, "GOAL_SET", "x=0;y=0;goal_x=2;goal_y=6"),
+                    (20, "TRIAL_END", f"x=2;y=1;yaw={math.pi / 2};left=shelf;right=nothing")]
+            (trial / "journal.csv").write_text("trial,seq,sim_ns,mono_ns,type,fields,crc32\n" + "".join(
+                f"t,{seq},{sim * 10**9},{sim * 10**9},{kind},{fields},00000000\n" for seq, (sim, kind, fields) in enumerate(rows, 1)))
+
+        def ask(self, participant, step, items, answered, lock):
+            if step.kind != "probe":
+                return super().ask(participant, step, items, answered, lock)
+            for item in items:
+                answered(item, {"goal": "-10", "start": "170", "left": "wall"}[item.name], "1.5")
+            return None
+    return functools.partial(begin, frozen(tmp_path, PROBES), driver=Stopping)
+
+
+def test_a_probe_stops_a_trial_of_each_condition_at_a_time_that_nobody_can_tell(tmp_path):
+    plan = small(tmp_path, PROBES)
+    assert kinds_of(plan, "sub-01") == ["trial", "probe", "questionnaire"] * 2 + ["session_end"]
+    stops = [step.limit for name in plan.participants for step in schedule.steps_of(plan, name) if step.kind == "probe"]
+    assert len(set(stops)) > 3 and all(5 <= stop <= 20 for stop in stops)
+    step = next(step for step in schedule.steps_of(plan, "sub-01") if step.kind == "probe")
+    words = runner.LiveRunner(study.Study(plan), "navvi", "close_trials").arguments("sub-01", step, progress.Attempt(step.name, 1, "easy", 3), tmp_path)
+    assert words["limit"] == f"{step.limit:g}" and words["trial/study/phase"] == "probe"
+    assert "probes" not in small(tmp_path).values() and plan.hash() != small(tmp_path).hash()
+
+
+def kinds_of(plan, name):
+    return [step.kind for step in schedule.steps_of(plan, name)]
+
+
+def test_what_was_answered_to_a_probe_stands_beside_what_was_true(probed):
+    begun = probed("timeout", "timeout")
+    assert rest(begun)[:3] == ["s1-c1-trial-1", "s1-c1-probe", "s1-c1-tlx"]
+    kept, state = begun.study, begun.study.progress()
+    first = {row["item"]: row for row in table.answers(kept, state) if row["step"] == "s1-c1-probe"}
+    assert (first["goal"]["truth"], first["goal"]["error_deg"], first["goal"]["seconds"]) == ("0", "-10", "1.5"), "it is straight ahead"
+    # The start is 2 m to the left of the heading and 1 m behind: 90 + atan(1/2).
+    assert (first["start"]["truth"], first["start"]["error_deg"]) == ("117", "53")
+    assert (first["left"]["truth"], first["left"]["correct"]) == ("shelf", "no")
+    assert [row["score"] for row in table.scores(kept, state) if row["questionnaire"] == "probe"] == [31.5, 31.5]
+    phases = [(row["phase"], row["counts"]) for row in table.trials(kept, state)]
+    assert phases == [("trial", "yes"), ("probe", "no")] * 2, "no figure of a trial is made of a probe"
+    files = {path.name: path for path in table.write(kept, state, FIGURES)}
+    assert json.loads(files["answers.json"].read_text())["error_deg"]["Units"] == "deg"
+
+
+def test_a_probe_whose_trial_does_not_count_is_driven_again_before_it_is_asked(probed):
+    begun = probed("reached", "aborted")
+    steps = rest(begun)
+    assert steps[:4] == ["s1-c1-trial-1", "s1-c1-probe", "s1-c1-probe", "s1-c1-tlx"]
+    assert begun.runner.driven[1:3] == [("easy", 3), ("easy", 11)]
+    assert len([row for row in begun.study.answers("sub-01") if row["step"] == "s1-c1-probe"]) == 3
+
+
+def test_where_the_robot_stands_at_the_place_or_the_record_does_not_know_nothing_is_true(tmp_path):
+    probe_of, folder = questionnaire.find("probe", EXAMPLE.parent), tmp_path / "trial"
+    folder.mkdir()
+    for end, known in (("x=0.5;y=0;yaw=0;left=n/a", [None, None, None]), ("x=3;y=0", [None, None, None]),
+                       ("x=-3;y=0;yaw=3.1;left=nothing", [None, "-178", "nothing"])):
+        (folder / "journal.csv").write_text("head\n" + f"t,1,0,0,TRIAL_START,x=0;y=0,0\nt,2,9,9,TRIAL_END,{end},0\n")
+        assert [probe.truth(item, record.Record(folder)) for item in probe_of.items] == known
+    assert [probe.wrapped(angle) for angle in (180, -180, 181, 540, 0)] == [180, 180, -179, 180, 0]
+
+
+def test_D1_a_note_of_any_bytes_is_kept_and_none_ends_the_desk(work, capsys):
+    work().next("sub-01")
+    attempt, _ = trial_of(work.study)
+    reader, writer = os.pipe()
+    os.write(writer, b"n caf\xe9\nn one\xe2\x80\xa8two\xe2\x80\xa9three\xc2\x85four\nwhat\nwhat\nm\n\np\ni led the robot")
+    os.close(writer)
+    desk = runner.Desk(None, lambda row: work.study.note("sub-01", attempt, row), runner.Lines(reader))
+    for _ in range(9):
+        desk.listen(0.0)
+    assert [note["text"] for note in work.study.notes("sub-01")] == ["caf\ufffd", "one\u2028two\u2029three\x85four", "", "", "led the robot"] and desk.paused
+    told = capsys.readouterr().out
+    assert told.count("\"what\" is not understood") == 2 and told.count(runner.DESK) == 1
+    row = table.trials(work.study, work.study.progress())[0]
+    assert (row["marks"], row["interventions"]) == ("3", "1")
+
+
+@pytest.mark.parametrize("problem", [StudyError("the disk is full"), UnicodeEncodeError("utf-8", "\udce9", 0, 1, "no"), OSError(28, "No space left")])
+def test_D2_a_note_that_cannot_be_written_is_told_and_the_trial_is_ended_all_the_same(problem, capsys, monkeypatch):
+    ended = []
+    monkeypatch.setattr(runner.os, "killpg", lambda *given: ended.append(given))
+
+    def note(row):
+        raise problem
+    desk = runner.Desk(type("Process", (), {"pid": 7}), note)
+    desk.obey("n the door opened")
+    desk.obey("a")
+    assert capsys.readouterr().out.count("is NOT written") == 2 and ended == [(7, signal.SIGINT)]
+
+
+def test_D1_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_over(work):
+    rest(work())
+    attempt, _ = trial_of(work.study)
+    for text in ("one", "two"):
+        work.study.note("sub-01", attempt, {"utc": "2026-01-01T00:00:00Z", "mono_ns": 1, "type": "note", "text": text})
+    assert verify.notes_and_answers(work.study, work.study.progress())[1:] == ({"notes": 2, "answers": 12}, 0)
+    for kind, damage in (("notes", b'{"step": "s1-c1-trial-1", "att\n[1]\n'), ("answers", b"\xff\n" + b"[" * 100000 + b"\n")):
+        with open(work.study.home("sub-01") / f"{kind}.jsonl", "ab") as file:
+            file.write(damage)
+    sentences, counts, lost = verify.notes_and_answers(work.study, work.study.progress())
+    assert sentences[0] == "sub-01: notes 2 of 4, answers 12 of 14." and counts == {"notes": 4, "answers": 14} and lost == 4
+    named = [f"{work.study.home('sub-01') / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
+             for kind, numbers in (("notes", (3, 4)), ("answers", (13, 14))) for number in numbers]
+    assert sentences[1:] == named and all(f"  {sentence}" in overview.status(work.study, work.study.progress()) for sentence in named)
+    assert len(table.answers(work.study, work.study.progress())) == 12
+
+
+def test_a_reason_that_is_not_utf_8_leaves_the_journal_whole(work):
+    rest(work())
+    actions.exclude(type("Args", (), {"plan": work.study.plan.file, "what": "sub-01", "reason": "caf\udce9", "no_replacement": False}))
+    assert work.study.journal.rows()[-1]["reason"] == "caf?" == journal.Journal(work.study.journal.path).rows()[-1]["reason"]
+
+
+def test_a_record_whose_bytes_are_not_utf_8_is_read(work):
+    rest(work())
+    _, trial = trial_of(work.study)
+    write_record(trial)
+    for name, more in (("events.csv", b"3.000,0,t,caf\xe9\xe2\x80\xa8,1.0,2.0,n/a\n"), ("journal.csv", b"\x85\xff\n"), ("summary.csv", b"\xff")):
+        with open(trial / name, "ab") as file:
+            file.write(more)
+    assert [row["trial_type"] for row in table.events(work.study, work.study.progress())] == ["goal reached", "caf\ufffd\u2028"]
+    assert len(record.Record(trial).rows) == 3
+
+
+def test_marks_stand_among_the_events_of_their_trial_at_its_own_time(work):
+    work().next("sub-01")
+    attempt, trial = trial_of(work.study)
+    write_record(trial)
+    for mono, kind, text in ((1002.0, "mark", ""), (1000.5, "note", "the door opened"), (1012.0, "intervention", "late")):
+        work.study.note("sub-01", attempt, {"utc": "2026-01-01T00:00:00Z", "mono_ns": int(mono * 1e9), "type": kind, "text": text})
+    rows = table.events(work.study, work.study.progress())
+    assert [(row["onset_s"], row["trial_type"], row["detail"]) for row in rows] == [
+        ("1.000", "note", "the door opened"), ("2.500", "goal reached", "n/a"), ("4.000", "mark", "n/a"), ("22.000", "intervention", "late")]
+    assert all(row["participant"] == "sub-01" and row["counts"] == "yes" and row["trial"] == attempt.trial for row in rows)
+    files = table.write(work.study, work.study.progress(), FIGURES)
+    described = json.loads((work.study.folder / "events.json").read_text())
+    assert described["onset_s"]["Units"] == "s" and work.study.folder / "events.csv" in files
+
+
+def test_nothing_of_a_study_names_a_person_but_by_code(work):
+    rest(work())
+    shutil.rmtree(work.study.home("sub-01"))
+    text = work.study.journal.path.read_text()
+    assert "sub-01" in text and "mental" not in text
+
+
+def test_a_way_is_resampled_at_an_even_rate_and_turns_the_short_way_round():
+    rows = export.resampled([(10.0, 0.0, 0.0, 3.0), (10.2, 1.0, 0.0, -3.0), (10.3, 1.0, 2.0, -3.0)], 10.0)
+    assert [(round(x, 6), round(y, 6)) for x, y, _ in rows] == [(0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 2.0)]
+    assert rows[1][2] == pytest.approx(math.pi, abs=1e-6) or rows[1][2] == pytest.approx(-math.pi, abs=1e-6)
+    assert export.resampled([], 10.0) == []
+
+
+def test_an_export_has_the_names_of_bids_no_date_and_the_same_bytes_twice(work):
+    rest(work())
+    state = work.study.progress()
+    for at in range(2):
+        write_record(trial_of(work.study, at=at)[1])
+
+    def way(path):
+        return [(9.0 + step, float(step), 0.0, 0.0) for step in range(30)]
+    folder = export.write(work.study, state, way)
+    first = {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert {path.relative_to(folder): path.read_bytes() for path in export.write(work.study, state, way).rglob("*") if path.is_file()} == first
+    motion = folder / "sub-01/ses-1/motion"
+    names = sorted(path.name for path in motion.iterdir())
+    assert len(names) == 2 * 5 and "sub-01_ses-1_task-drive_tracksys-odometry_acq-plain_run-01_motion.tsv" in names
+    lines = next(motion.glob("*_motion.tsv")).read_text().splitlines()
+    assert len(lines) == 20 * 20 + 1 and lines[0].split("\t")[0] == "1.0000"  # from the begin of the trial on, 20 s at 20 Hz
+    assert not any(b"2026" in content for content in first.values())
