@@ -13,5 +13,5 @@ int main(int argc, char** argv) {
   Fillings near;
   near.thing = navvi_types::ThingClass::forklift;
   near.side = Side::left;
-  std::puts(phrases.say(navvi_types::CueKind::obstacle_near, near).c_str());
+  std::puts(phrases.say(navvi_types::CueKind::near, near).c_str());
 }

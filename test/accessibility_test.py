@@ -337,7 +337,7 @@ def test_each_sense_has_its_strength_and_its_switch():
 # What has words, by the names of patterns that are felt and of short sounds.
 SAID = {
     "ready": "press_start", "begun": "trial_begins", "rerouted": "rerouted", "arrived": "arrived", "stuck": "stuck", "halt": "obstacle_stop", "stopped": "robot_stopped",
-    "hit_obstacle": "collision_obstacle", "hit_shelf": "collision_shelf", "shelf_near": "shelf_near", "shelf_close": "shelf_close",
+    "hit_obstacle": "collision", "hit_shelf": "collision",
     "turn": "direction", "turn_click": "direction", "turn_stop": "straight", "on_course": "straight", "beacon": "direction",
     "flow": "direction", "answer": "goal_info", "assisted": "assisted",
 }
@@ -354,7 +354,7 @@ def test_what_is_felt_or_sounds_is_said_too():
         assert len(names) > 5
         for name in names:
             near = re.fullmatch(r"(\w+?)_(near|close)", name)
-            said = SAID.get(name) or (f"obstacle_{near[2]}" if near else None)
+            said = SAID.get(name) or (near and near[2])
             # "No sound" cannot be said: it is felt and shown; nor that words are missing. The others come only when somebody asks for them.
             assert said in phrases or name in ("no_sound", "sample", "unsaid"), name
 

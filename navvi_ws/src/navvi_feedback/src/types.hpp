@@ -10,7 +10,9 @@
 #include <navvi_types/trial.hpp>
 
 namespace navvi_feedback {
+using navvi_types::About;
 using navvi_types::Contact;
+using navvi_types::Content;
 using navvi_types::CueEvent;
 using navvi_types::CueKind;
 using navvi_types::CueStage;

@@ -30,16 +30,16 @@ class Drive {
  public:
   explicit Drive(const RouteConfig& config = {}) : cues(config) { now.measured.emplace(); }
 
-  /// Lets `seconds` pass in this situation and returns the kinds that were said.
-  std::vector<CueKind> pass(double seconds) {
-    std::vector<CueKind> kinds;
+  /// Lets `seconds` pass in this situation and returns what was said.
+  std::vector<Content> pass(double seconds) {
+    std::vector<Content> told;
     for (const double end = time + seconds; time < end - 1e-9; time += kTick) {
       for (const Utterance& utterance : cues.update(now, false, time)) {
-        kinds.push_back(utterance.kind);
+        told.emplace_back(utterance);
         last = utterance;
       }
     }
-    return kinds;
+    return told;
   }
 
   /// After the introduction and the first direction, so that only news is said.
@@ -62,6 +62,6 @@ class Drive {
   double time = 100.0;
 };
 
-using Kinds = std::vector<CueKind>;
+using Kinds = std::vector<Content>;
 
 }  // namespace navvi_feedback::cues

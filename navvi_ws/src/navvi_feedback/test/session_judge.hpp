@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "beat.hpp"
+#include "cues/structure.hpp"
 
 namespace navvi_feedback::core {
 
@@ -32,7 +33,7 @@ class SessionJudge {
     bool sounds = true;
     bool motors = true;
     std::optional<drive::Button> asked;
-    std::vector<CueKind> notices;
+    std::vector<Content> notices;
   };
 
   explicit SessionJudge(const GuideConfig& config = {})
@@ -131,7 +132,7 @@ class SessionJudge {
     for (const CueEvent& event : events) {
       if (event.stage == CueStage::queued) {
         known_[event.id] = {time, *next++};
-        decided_[*event.kind()] = time;
+        decided_[*event.content()] = time;
         const bool way = is_way(family_of(*event.kind())) && !known_[event.id].cue.asked;
         const bool same = now.guidance.state == last_.guidance.state;
         if (way && same && std::min({held_in_vain_, alive_, steady_}) > 1.0)
@@ -166,11 +167,9 @@ class SessionJudge {
           complaints.insert("an important cue waited behind a lesser one");
       const auto said = said_.find(event.text);
       static const std::set<CueKind> news = {
-          CueKind::blocked,        CueKind::go_on,          CueKind::turn_now,
-          CueKind::obstacle_comes, CueKind::make_room,      CueKind::new_route,
-          CueKind::way_blocked,    CueKind::rerouted,       CueKind::rerouted_blocked,
-          CueKind::start,          CueKind::start_distance, CueKind::toward_goal,
-          CueKind::goal_seen};
+          CueKind::blocked,   CueKind::go_on,       CueKind::turn_now,    CueKind::obstacle_comes,
+          CueKind::make_room, CueKind::new_route,   CueKind::way_blocked, CueKind::rerouted,
+          CueKind::start,     CueKind::toward_goal, CueKind::goal_seen};
       const bool reminds = known.cue.priority <= Priority::text || event.kind() == CueKind::stuck ||
                            event.kind() == CueKind::back_away ||
                            event.kind() == CueKind::release_stick;
@@ -178,7 +177,7 @@ class SessionJudge {
           said != said_.end() && time - said->second < 10.0 - kTick)
         complaints.insert("the same again: " + event.word());
       said_[event.text] = time;
-      if (asks(*event.kind())) asked_for_ = *event.kind();
+      if (asks(*event.kind())) asked_for_ = *event.content();
     }
   }
 
@@ -196,7 +195,7 @@ class SessionJudge {
     const navvi_types::CueTraits& kind = traits(*order.kind());
     const auto recent = [&](double at) { return time - at < 4.0 + 1.5 * kTick; };
     const auto said = said_.find(order.text);
-    if (said != said_.end() && recent(said->second) && asked_for_ == kind.kind) return false;
+    if (said != said_.end() && recent(said->second) && asked_for_ == *order.content()) return false;
     return !kind.felt || std::none_of(felt_.begin(), felt_.end(), [&](const auto& felt) {
       const auto& [pattern, at] = felt;
       const bool hit =
@@ -294,46 +293,43 @@ class SessionJudge {
            (now.velocity->linear > 0.05 || std::abs(now.velocity->angular) > 0.05);
   }
 
-  [[nodiscard]] bool decided(CueKind kind, double within) const {
-    const auto found = decided_.find(kind);
+  [[nodiscard]] bool decided(const Content& content, double within) const {
+    const auto found = decided_.find(content);
     return found != decided_.end() && time - found->second <= within;
   }
 
   /// Whatever matters is decided within its time, by rules that are written without the policy.
   void expect_what_matters() {
-    const auto demand = [&](CueKind kind, double within) {
-      if (!decided(kind, within)) complaints.insert(std::string("unsaid: ") + to_string(kind));
+    const auto demand = [&](const Content& content, double within) {
+      if (!decided(content, within)) complaints.insert("unsaid: " + to_string(content));
     };
     for (const Contact& contact : now.contacts) {
       const double before = hits_.count(contact.id) > 0 ? hits_[contact.id] : -1e9;
       if (time - before < 1.5) continue;
       hits_[contact.id] = time;
-      demand(contact.thing_class == navvi_types::ThingClass::shelf  ? CueKind::collision_shelf
-             : contact.thing_class == navvi_types::ThingClass::wall ? CueKind::collision_wall
-                                                                    : CueKind::collision_obstacle,
-             kTick);
+      demand({CueKind::collision, cues::about(contact.thing_class)}, kTick);
     }
     const bool simulated = now.velocity && last_.velocity;
     // A stick that comes and goes is lost until it is told to be back.
-    const bool off = decided_[CueKind::pad_lost] > decided_[CueKind::pad_back];
+    const bool off = decided_[{CueKind::stick_lost, About::pad}] > decided_[CueKind::pad_back];
     plugged_ = now.stick ? plugged_ + kTick : 0.0;
     if (off && plugged_ > 5.0 + 2.0 * kTick) demand(CueKind::pad_back, kTick);
     alive_ = simulated && now.guided && now.stick && !off && now.trial == TrialState::State::free
                  ? alive_ + kTick
                  : 0.0;
-    if (last_.stick && !now.stick && !off) demand(CueKind::pad_lost, 2.0 + kTick);
+    if (last_.stick && !now.stick && !off) demand({CueKind::stick_lost, About::pad}, 2.0 + kTick);
     if (alive_ > 2.0 && last_.gate.state == DriveState::State::running &&
         now.gate.state == DriveState::State::stopped)
       demand(CueKind::robot_stopped, 2.0 + kTick);
     const bool same = now.guidance.state == last_.guidance.state;
     steady_ = same && alive_ > 0.0 ? steady_ + kTick : 0.0;
-    static const std::map<Guidance::State, CueKind> told = {
+    static const std::map<Guidance::State, Content> told = {
         {Guidance::State::arrived, CueKind::arrived},
-        {Guidance::State::no_route, CueKind::no_route},
+        {Guidance::State::no_route, {CueKind::no_way, About::no_route}},
         {Guidance::State::off_mesh, CueKind::off_mesh},
-        {Guidance::State::no_map, CueKind::no_map},
-        {Guidance::State::map_stale, CueKind::map_stale},
-        {Guidance::State::pose_stale, CueKind::pose_stale},
+        {Guidance::State::no_map, {CueKind::no_way, About::no_map}},
+        {Guidance::State::map_stale, {CueKind::no_way, About::map_stale}},
+        {Guidance::State::pose_stale, {CueKind::no_way, About::pose_stale}},
         {Guidance::State::blocked, CueKind::blocked},
         {Guidance::State::make_room, CueKind::make_room}};
     const auto kind = told.find(now.guidance.state);
@@ -359,10 +355,10 @@ class SessionJudge {
   double speaks_until_ = 0.0;
   std::map<std::uint32_t, Known> known_;
   std::uint32_t running_ = 0;
-  std::map<CueKind, double> decided_;     ///< s
+  std::map<Content, double> decided_;     ///< s
   std::map<std::string, double> said_;    ///< s, by text
   std::map<haptics::Pattern, double> felt_;  ///< s
-  CueKind asked_for_ = CueKind::lesson;      ///< by the voice, last
+  Content asked_for_;                        ///< by the voice, last
   std::map<std::uint32_t, double> hits_;  ///< s, by thing
   Scene last_;
   double alive_ = 0.0;    ///< s, since when all links have lived

@@ -6,7 +6,7 @@ namespace {
 const char* const kNearness = "rumble";  ///< of motors without a pattern
 
 std::string word_of(const Spoken& spoken) {
-  return spoken.kind == CueKind::lesson ? spoken.lesson : to_string(spoken.kind);
+  return spoken.kind == CueKind::lesson ? spoken.lesson : to_string(static_cast<Content>(spoken));
 }
 std::string word_of(const Felt& felt) {
   return felt.pattern ? to_string(*felt.pattern) : kNearness;
@@ -23,8 +23,8 @@ std::optional<std::variant<Spoken, Felt, Earcon>> signal_of(Modality modality,
                                                             const std::string& word) {
   switch (modality) {
     case Modality::speech: {
-      const auto kind = from_word<CueKind>(word);
-      return kind ? Spoken(*kind) : Spoken(CueKind::lesson, word);
+      const auto content = from_word<Content>(word);
+      return content ? Spoken(*content) : Spoken(CueKind::lesson, word);
     }
     case Modality::rumble: {
       const auto pattern = from_word<Pattern>(word);

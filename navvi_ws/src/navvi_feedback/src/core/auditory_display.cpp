@@ -35,7 +35,7 @@ std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
   for (const cues::Cue& cue : cues) {
     if (cue.sound) add(cue.sound->earcon, cue.sound->from);
     if (cue.kind == CueKind::arrived) add(Earcon::arrived, Eigen::Vector2d::UnitX());
-    if (family_of(cue.kind) != cues::Family::hit) continue;
+    if (cue.kind != CueKind::collision) continue;
     for (const Contact& contact : now.contacts)
       add(cues::is_structure(contact.thing_class) ? Earcon::hit_shelf : Earcon::hit_obstacle,
           contact.seen_from_robot());

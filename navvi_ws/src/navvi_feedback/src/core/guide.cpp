@@ -160,7 +160,7 @@ void Guide::Parts::say(const cues::CueQueue::Step& step, const Devices& devices,
   if (devices.words) out.said = heard_words.of(words, devices.sounds);
   policy.note(words);
   for (const CueEvent& event : words) {
-    const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+    const navvi_types::Spoken* const spoken = event.spoken();
     if (event.stage == CueStage::ended && event.kind() == CueKind::which_side) side.told();
     if (event.stage == CueStage::started && spoken) begun.push_back(spoken->lesson);
     if (event.stage == CueStage::started && spoken && !spoken->lesson.empty()) {
@@ -198,9 +198,9 @@ void Guide::use(const GuideConfig& config) {
   parts_->teacher.use(values.haptics, values.sounds, values.cues.wording);
 }
 
-void Guide::announce(CueKind kind) { parts_->news.push_back(kind); }
+void Guide::announce(const Content& content) { parts_->news.push_back(content); }
 
-void Guide::end_trial(std::optional<CueKind> words) {
+void Guide::end_trial(std::optional<Content> words) {
   parts_->runs = false;
   if (!words) return;
   announce(*words);
@@ -219,7 +219,7 @@ std::optional<Output> Guide::update(const Devices& devices, double time) {
 }
 
 bool Guide::end_session() {
-  if (parts_->runs) end_trial(CueKind::trial_over);
+  if (parts_->runs) end_trial(Content{CueKind::trial_ends, About::over});
   return !parts_->news.empty();
 }
 
@@ -248,8 +248,8 @@ std::optional<CueEvent> Guide::order() const {
       order && (order->priority == Priority::important || traits(order->kind).shown);
   if (parts_->lesson && !urgent) order = parts_->lesson;
   if (!order) return std::nullopt;
-  return CueEvent{0, CueStage::started, navvi_types::Spoken(order->kind, order->lesson),
-                  order->text, order->priority};
+  return CueEvent{0, CueStage::started, navvi_types::Spoken(*order, order->lesson), order->text,
+                  order->priority};
 }
 
 std::optional<sounds::Learnt> Guide::learnt() const {

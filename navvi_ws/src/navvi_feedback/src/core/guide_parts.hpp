@@ -111,7 +111,7 @@ struct Guide::Parts {
   lead::Following following;  ///< what sounds all the time
   haptics::RumbleOutput rumble_output, flow_output;
 
-  std::vector<CueKind> news;       ///< not said yet
+  std::vector<Content> news;       ///< not said yet
   std::vector<cues::Cue> decided;  ///< at the last beat, to be spoken, most urgent first
   std::vector<CueEvent> words;     ///< what became of these and earlier ones, heard or not
   std::vector<std::string> begun;  ///< texts of a lesson that began to be heard since then

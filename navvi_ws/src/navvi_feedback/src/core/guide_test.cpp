@@ -36,7 +36,7 @@ class GuideTest : public testing::Test {
     Beat output;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02) {
       output = beat(guide_, input_, time_);
-      for (const cues::Cue& cue : output.cues) kinds_.push_back(cue.kind);
+      for (const cues::Cue& cue : output.cues) told_.emplace_back(cue);
       plays_.insert(plays_.end(), output.plays.begin(), output.plays.end());
     }
     return output;
@@ -82,15 +82,15 @@ class GuideTest : public testing::Test {
     guide_.take(Odometry{}, time_);
   }
 
-  [[nodiscard]] bool said(CueKind kind) const {
-    return std::find(kinds_.begin(), kinds_.end(), kind) != kinds_.end();
+  [[nodiscard]] bool said(const Content& content) const {
+    return std::find(told_.begin(), told_.end(), content) != told_.end();
   }
 
   std::uint32_t plans_ = 0;
   Guide guide_{GuideConfig{}, kEnglish};
   Devices input_;
   double time_ = 10.0;
-  std::vector<CueKind> kinds_;
+  std::vector<Content> told_;
   std::vector<sounds::Play> plays_;
   int alarms_ = 0;
 };
@@ -102,7 +102,7 @@ TEST_F(GuideTest, says_once_that_another_node_wants_to_drive) {
   drive.intruder = "/teleop";
   guide_.take(drive, time_);
   pass(5.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::intruder), 1);
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), Content(CueKind::notice, About::intruder)), 1);
 }
 
 TEST_F(GuideTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
@@ -114,7 +114,7 @@ TEST_F(GuideTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_ze
   ASSERT_TRUE(lost.command);
   EXPECT_EQ(lost.command->linear, 0.0);
   EXPECT_FALSE(pass(0.02).command);
-  EXPECT_TRUE(said(CueKind::pad_lost));
+  EXPECT_TRUE(said({CueKind::stick_lost, About::pad}));
 }
 
 TEST_F(GuideTest, a_stick_that_was_opened_anew_must_be_neutral_again) {
@@ -130,15 +130,15 @@ TEST_F(GuideTest, S7_a_pause_of_ten_minutes_ends_without_a_burst_of_speech) {
     for (const double end = time_ + seconds; time_ < end - 1e-9; pass(0.06)) lead(0.5);
   };
   live(10.0);
-  const std::size_t at_first = kinds_.size();
-  kinds_.clear();
+  const std::size_t at_first = told_.size();
+  told_.clear();
   pass(600.0);
-  EXPECT_TRUE(said(CueKind::odometry_lost));
-  EXPECT_LE(kinds_.size(), 4U) << "each loss is said once";
-  kinds_.clear();
+  EXPECT_TRUE(said({CueKind::robot_lost, About::odometry}));
+  EXPECT_LE(told_.size(), 4U) << "each loss is said once";
+  told_.clear();
   live(10.0);
   EXPECT_TRUE(said(CueKind::direction));
-  EXPECT_LE(kinds_.size(), at_first + 1) << "as at the begin";
+  EXPECT_LE(told_.size(), at_first + 1) << "as at the begin";
 }
 
 class Driven : public GuideTest {
@@ -181,8 +181,8 @@ TEST_F(GuideTest, nothing_moves_before_the_person_has_begun_the_trial) {
   guide_.take(Odometry{}, time_);
   guide_.take(TrialState{TrialState::State::ready}, time_);
   pass(0.6);
-  EXPECT_TRUE(said(CueKind::press_start));
-  kinds_.clear();
+  EXPECT_TRUE(said({CueKind::press, About::start}));
+  told_.clear();
   hold(0.0, 1.0);
   bool felt = false;
   for (int tick = 0; tick < 200; ++tick) {
@@ -224,7 +224,7 @@ TEST_F(GuideTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs) {
   EXPECT_FALSE(said(CueKind::record_lost));
   pass(2.2);
   EXPECT_TRUE(said(CueKind::record_lost));
-  kinds_.clear();
+  told_.clear();
   beat(6.0);
   EXPECT_FALSE(said(CueKind::record_lost));
   guide_.take(TrialState{TrialState::State::preparing}, time_);
@@ -384,7 +384,7 @@ TEST_F(GuideTest, a_goal_that_the_planner_refuses_was_never_headed_for) {
   choose();
   lead_to({1.0, 2.0}, Guidance::State::goal_refused);
   pass(0.1);
-  EXPECT_TRUE(said(CueKind::goal_refused_not_seen));
+  EXPECT_TRUE(said({CueKind::goal_refused, About::not_seen}));
   pass(6.0);
   EXPECT_FALSE(said(CueKind::goal_chosen));
   EXPECT_FALSE(said(CueKind::menu_closed)) << "the refusal was the answer";
@@ -426,10 +426,10 @@ TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
   EXPECT_TRUE(said(CueKind::which_side));
   EXPECT_EQ(guide_.order().value().kind(), CueKind::which_side);
   ASSERT_NE(side_, 0.0);
-  EXPECT_FALSE(said(CueKind::press_start));
+  EXPECT_FALSE(said({CueKind::press, About::start}));
   hold(side_, 0.0);
   EXPECT_EQ(wait(1.0), "sounds/sides:=usb_headphones");
-  EXPECT_TRUE(said(CueKind::press_start));
+  EXPECT_TRUE(said({CueKind::press, About::start}));
   EXPECT_FALSE(said(CueKind::sides_wrong));
   EXPECT_FALSE(guide_.learnt().value().words_lead);
 }
@@ -439,7 +439,7 @@ TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
   hold(-side_, 0.0);
   EXPECT_EQ(wait(1.0), "");
   EXPECT_TRUE(said(CueKind::sides_wrong));
-  EXPECT_TRUE(said(CueKind::press_start));
+  EXPECT_TRUE(said({CueKind::press, About::start}));
   EXPECT_TRUE(guide_.learnt().value().words_lead);
 }
 
@@ -505,10 +505,10 @@ TEST_F(GuideTest, a_menu_that_nobody_uses_is_closed_after_20_s_and_that_is_said)
   pass(0.02);
   input_.asked.clear();
   pass(19.5);
-  EXPECT_TRUE(said(CueKind::menu_settings));
+  EXPECT_TRUE(said({CueKind::menu, About::menu_settings}));
   EXPECT_FALSE(said(CueKind::menu_closed));
   pass(1.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::menu_closed), 1);
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), CueKind::menu_closed), 1);
 }
 
 TEST_F(GuideTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_once) {
@@ -589,7 +589,7 @@ TEST_F(GuideTest, a_contact_is_said_once) {
   guide_.take(Odometry{}, time_);
   guide_.take(Contact{ThingClass::shelf, {0.3, 0.2}, 7}, time_);
   pass(3.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::collision_shelf), 1);
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), CueKind::collision), 1);
 }
 
 TEST_F(GuideTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
@@ -610,7 +610,7 @@ TEST_F(GuideTest, a_hit_sounds_once_from_its_side) {
   ASSERT_EQ(plays_.size(), 1U);
   EXPECT_EQ(plays_[0].earcon, sounds::Earcon::hit_shelf);
   EXPECT_GT(plays_[0].from.y(), 0.0);
-  EXPECT_TRUE(said(CueKind::collision_shelf));
+  EXPECT_TRUE(said({CueKind::collision, About::shelf}));
 }
 
 TEST_F(GuideTest, sounds_do_the_work_of_words_while_they_are_heard) {
@@ -621,7 +621,7 @@ TEST_F(GuideTest, sounds_do_the_work_of_words_while_they_are_heard) {
   }
   EXPECT_GT(played(Earcon::turn), 5);
   EXPECT_EQ(played(Earcon::shelf_near), 1);
-  EXPECT_FALSE(said(CueKind::shelf_near));
+  EXPECT_FALSE(said({CueKind::near, About::shelf}));
   input_.sounds = false;
   plays_.clear();
   for (int i = 0; i < 10; ++i) {
@@ -629,7 +629,7 @@ TEST_F(GuideTest, sounds_do_the_work_of_words_while_they_are_heard) {
     pass(0.5);
   }
   EXPECT_TRUE(plays_.empty());
-  EXPECT_TRUE(said(CueKind::shelf_near));
+  EXPECT_TRUE(said({CueKind::near, About::shelf}));
 }
 
 TEST_F(GuideTest, words_win_over_sounds_but_not_over_a_hit_and_a_turn_is_still_counted) {
@@ -704,10 +704,10 @@ TEST_F(GuideTest, a_stick_that_a_busy_computer_delays_is_to_be_released_and_not_
   input_.hands.live = true;
   input_.hands.late = false;
   EXPECT_EQ(pass(0.6).command->linear, 0.0);
-  EXPECT_FALSE(said(CueKind::pad_lost) || said(CueKind::pad_back));
+  EXPECT_FALSE(said({CueKind::stick_lost, About::pad}) || said(CueKind::pad_back));
   input_.hands.live = false;
   pass(0.02);
-  EXPECT_TRUE(said(CueKind::pad_lost));
+  EXPECT_TRUE(said({CueKind::stick_lost, About::pad}));
 }
 
 TEST_F(GuideTest, says_each_time_to_who_has_no_motors_what_others_feel) {
@@ -725,20 +725,20 @@ TEST_F(GuideTest, says_each_time_to_who_has_no_motors_what_others_feel) {
 
 TEST_F(GuideTest, a_button_that_is_held_asks_once) {
   pass(6.0);
-  kinds_.clear();
+  told_.clear();
   input_.hands.buttons = {true, false};
   pass(2.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::no_goal), 1);
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), CueKind::no_goal), 1);
 }
 
 TEST_F(GuideTest, what_is_asked_elsewhere_is_answered_like_a_button) {
   pass(6.0);
-  kinds_.clear();
+  told_.clear();
   input_.asked = {drive::Button::repeat};
   pass(0.02);
   input_.asked.clear();
   pass(2.0);
-  EXPECT_EQ(std::count(kinds_.begin(), kinds_.end(), CueKind::no_goal), 1);
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), CueKind::no_goal), 1);
 }
 
 TEST_F(GuideTest, guidance_is_kept_but_not_fresh_for_ever) {
@@ -856,7 +856,7 @@ TEST(Lesson, shows_the_sentence_that_it_says_in_each_of_its_steps) {
       learner.guide_.take(Proximity{}, learner.time_);
       learner.guide_.take(Guidance{}, learner.time_);
       for (const CueEvent& event : output.events) {
-        const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+        const navvi_types::Spoken* const spoken = event.spoken();
         if (event.stage != CueStage::started || !spoken || spoken->lesson.empty()) continue;
         keys.insert(spoken->lesson);
         said = event.text;

@@ -41,9 +41,8 @@ haptics::Zone zone_of(const Contact& contact) {
 std::optional<haptics::Pattern> pattern_of(const cues::Cue& cue, bool deaf) {
   using haptics::Pattern;
   if (const auto pattern = traits(cue.kind).felt) return pattern;
-  const bool alarm =
-      cue.kind == CueKind::guidance_lost ||
-      (cue.priority == Priority::important && family_of(cue.kind) != cues::Family::hit);
+  const bool alarm = cue.kind == CueKind::guidance_lost ||
+                     (cue.priority == Priority::important && cue.kind != CueKind::collision);
   return deaf && alarm ? std::optional(Pattern::stopped) : std::nullopt;
 }
 

@@ -79,7 +79,7 @@ TEST_F(Leading, by_a_sound_that_lasts_comes_from_the_side_to_steer_to_and_needs_
   EXPECT_NEAR(ahead.left, ahead.right, 1e-9);
   EXPECT_GT(ahead.left + ahead.right, 0.9) << "at full speed";
   EXPECT_EQ(said_.count(CueKind::direction) + said_.count(CueKind::turn_now), 0U);
-  EXPECT_EQ(said_.count(CueKind::start) + said_.count(CueKind::start_distance), 1U) << "the goal";
+  EXPECT_EQ(said_.count(CueKind::start), 1U) << "the goal";
   EXPECT_EQ(played_.count(sounds::Earcon::turn_stop), 0U);
 }
 

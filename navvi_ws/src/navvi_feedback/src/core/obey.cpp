@@ -76,11 +76,11 @@ std::optional<cues::Utterance> Guide::Parts::heed_planner(const Observation& now
 }
 
 cues::Utterance Guide::Parts::remember(const std::optional<Eigen::Vector2d>& at, Output& out) {
-  if (config.places.empty()) return {CueKind::place_no_file};
-  if (!at) return {CueKind::place_no_pose};
+  if (config.places.empty()) return {{CueKind::place, About::no_file}};
+  if (!at) return {{CueKind::place, About::no_pose}};
   out.place = menu.remember(*at, phrases);
   if (!out.place) return {CueKind::place_not_saved};
-  cues::Utterance told{CueKind::place_saved};
+  cues::Utterance told{{CueKind::place, About::saved}};
   told.fillings.place_name = out.place->name;
   return told;
 }

@@ -174,7 +174,8 @@ const std::vector<Row> kTable = {
     {"the pad is pulled out", [](Scene& now) { now.stick = false; }, "controller disconnected", "",
      ""},
     {"no proximity", [](Scene& now) { now.sensed = false; }, "obstacles are not sensed", "", ""},
-    {"no odometry", [](Scene& now) { now.velocity.reset(); }, "the robot does not report its motion", "", ""},
+    {"no odometry", [](Scene& now) { now.velocity.reset(); },
+     "the robot does not report its motion", "", ""},
     {"no guidance", [](Scene& now) { now.guided = false; }, "the guidance is lost", "", ""},
     {"the next trial waits",
      [](Scene& now) {
@@ -183,7 +184,10 @@ const std::vector<Row> kTable = {
        now.trial = TrialState::State::ready;
      },
      "press start to begin", "ready", ""},
-    {"the time is up", [](Scene& now) { now.notices = {CueKind::trial_time_up}; },
+    {"the time is up",
+     [](Scene& now) {
+       now.notices = {{CueKind::trial_ends, About::time_up}};
+     },
      "time is up, the trial is over", "", ""},
     // Questions.
     {"asks for the goal", [](Scene& now) { now.asked = drive::Button::goal; },

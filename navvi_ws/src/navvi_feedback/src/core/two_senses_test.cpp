@@ -132,7 +132,7 @@ Signals signals(const Family& family, Lost lost) {
     family.happens(guide, input, time);
     const Beat out = beat(guide, input, time);
     if (lost != Lost::sound) {
-      for (const cues::Cue& cue : out.cues) result.said.insert(to_string(cue.kind));
+      for (const cues::Cue& cue : out.cues) result.said.insert(cue.word());
       for (const sounds::Play& play : out.plays)
         result.played.insert(navvi_types::to_string(play.earcon));
     }
@@ -180,10 +180,10 @@ TEST(TwoSenses, motors_that_cannot_be_felt_are_told) {
   Devices input;
   input.hands.live = true;
   input.hands.axes = {0.0, 0.0};
-  input.states = {CueKind::no_rumble};
+  input.states = {{CueKind::notice, About::no_rumble}};
   const std::vector<cues::Cue> cues = beat(guide, input, 10.0).cues;
   ASSERT_FALSE(cues.empty());
-  EXPECT_EQ(cues[0].kind, CueKind::no_rumble);
+  EXPECT_EQ(cues[0].about, About::no_rumble);
 }
 
 }  // namespace

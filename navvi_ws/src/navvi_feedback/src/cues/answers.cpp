@@ -41,14 +41,13 @@ std::optional<Utterance> about(Question question, const Tick& tick, Rounding rou
     return stops ? stops : around(now.nearby);
   }
   if (question == Question::help)
-    return Utterance{now.devices.keyboard ? CueKind::help_keys : CueKind::help_pad};
+    return Utterance{{CueKind::help, now.devices.keyboard ? About::keys : About::pad}};
   if (question == Question::where && (now.place || (to_goal && now.goal_angle)))
     return where_am_i(now, rounding);
   const bool ends = to_goal && now.guidance->ends_short && now.guidance->turn_angle == 0.0;
   if (question == Question::turn && to_goal && !now.guidance->waypoint_is_goal && !ends)
     return next_turn(*now.guidance, rounding);
-  if (question == Question::goal && to_goal)
-    return goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, rounding);
+  if (question == Question::goal && to_goal) return goal_words(CueKind::goal_info, now, rounding);
   return std::nullopt;
 }
 
@@ -61,7 +60,7 @@ std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const
     way->goes_on = halt.owes();
     return way;
   }
-  const CueKind problem = state.problem().value_or(CueKind::welcome);
+  const Content problem = state.problem().value_or(CueKind::welcome);
   if (problem != CueKind::welcome) return problem_words(problem, tick.now);
   if (tick.age < kFirstPath) return std::nullopt;
   return problem_words(CueKind::no_goal, tick.now);
@@ -100,7 +99,7 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   // An answer is wanted at once, whatever was said just before.
   answer->priority = Priority::message;
   answer->asked = true;
-  answered_ = answer->kind;
+  answered_ = *answer;
   Utterances answers = {*answer};
   if (question == Question::help) answers.push_back({CueKind::help_menu});
   return answers;
@@ -113,12 +112,12 @@ void Answers::yield(Utterances& answer) {
   answered_.reset();
 }
 
-void Answers::heard(CueKind kind) {
-  if (kind == answered_) answered_.reset();
+void Answers::heard(const Content& content) {
+  if (answered_ == content) answered_.reset();
 }
 
-void Answers::lost(CueKind kind) {
-  if (kind == answered_) question_ = asked_;
+void Answers::lost(const Content& content) {
+  if (answered_ == content) question_ = asked_;
 }
 
 }  // namespace navvi_feedback::cues

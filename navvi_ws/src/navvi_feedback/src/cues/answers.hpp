@@ -24,10 +24,10 @@ class Answers {
   /// is withdrawn.
   void yield(Utterances& answer);
 
-  /// Words of this kind have begun.
-  void heard(CueKind kind);
+  /// These words have begun.
+  void heard(const Content& content);
   /// They were not heard.
-  void lost(CueKind kind);
+  void lost(const Content& content);
 
  private:
   /// Takes note that the way is asked for. \return false if that is too often
@@ -37,7 +37,7 @@ class Answers {
   /// s, of the last two times that the way was told, the earlier one first
   std::array<double, 2> way_at_ = {-std::numeric_limits<double>::infinity(),
                                    -std::numeric_limits<double>::infinity()};
-  std::optional<CueKind> answered_;   ///< the kind of that, until it is heard
+  std::optional<Content> answered_;   ///< the content of that, until it is heard
   std::optional<Question> question_;  ///< still to be answered, or again
   bool for_go_on_ = false;            ///< it waits for "go on", which is due soon
 };

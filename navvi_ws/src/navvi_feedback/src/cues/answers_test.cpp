@@ -128,8 +128,8 @@ TEST_F(AnswersTest, an_answer_that_was_heard_is_not_given_again_for_a_later_cue_
   pass(1.0);
   asked_.question = Question::way;
   pass(0.1);
-  policy_.note({{2, CueStage::started, last_.kind, last_.text}});
-  policy_.note({{3, CueStage::dropped, last_.kind, last_.text}});
+  policy_.note({{2, CueStage::started, Content(last_), last_.text}});
+  policy_.note({{3, CueStage::dropped, Content(last_), last_.text}});
   EXPECT_EQ(pass(0.1), Texts{});
 }
 

@@ -2,16 +2,13 @@
 
 #include <iterator>
 
+#include "cues/structure.hpp"
+
 namespace navvi_feedback::cues {
 namespace {
 
 /// s; the same thing again within it is the same collision.
 constexpr double kSameHit = 1.5;
-
-CueKind kind_of(ThingClass thing) {
-  if (thing == ThingClass::shelf) return CueKind::collision_shelf;
-  return thing == ThingClass::wall ? CueKind::collision_wall : CueKind::collision_obstacle;
-}
 
 }  // namespace
 
@@ -21,8 +18,9 @@ Utterances CollisionCues::update(const std::vector<Contact>& contacts, double ti
   Utterances told;
   for (const Contact& contact : contacts) {
     if (!hit_.emplace(contact.id, time).second) continue;
-    const Side side = side_of(contact.seen_from_robot());
-    told.push_back({kind_of(contact.thing_class), {{}, {}, contact.thing_class, side}});
+    const ThingClass thing = contact.thing_class;
+    told.push_back(
+        {{CueKind::collision, about(thing)}, {{}, {}, thing, side_of(contact.seen_from_robot())}});
   }
   return told;
 }

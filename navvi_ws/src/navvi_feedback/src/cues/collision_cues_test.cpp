@@ -14,7 +14,7 @@ TEST_F(CollisionCuesTest, says_what_was_hit_and_where_and_then_the_way_on) {
   now_.contacts = {{ThingClass::shelf, {0.0, 0.35}}};
   EXPECT_EQ(pass(0.1), Texts{"hit a shelf on your left"});
   EXPECT_EQ(last_.priority, Priority::important);
-  EXPECT_EQ(last_.kind, CueKind::collision_shelf);
+  EXPECT_EQ(Content(last_), Content(CueKind::collision, About::shelf));
   EXPECT_EQ(pass(2.0), Texts{"drive straight, 20 meters"});
   now_.contacts = {{ThingClass::forklift, {0.35, 0.0}}};
   EXPECT_EQ(pass(0.1), Texts{"hit a forklift ahead"});

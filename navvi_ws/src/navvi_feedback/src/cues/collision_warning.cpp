@@ -6,6 +6,7 @@
 
 #include "cues/near_words.hpp"
 #include "cues/robot_motion.hpp"
+#include "cues/structure.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -115,19 +116,19 @@ std::optional<CollisionWarning::Warning> CollisionWarning::update(const Observat
   const bool same = last_.of == thing.id && time - last_.time < kComes;
   // A person who drives along a shelf is not told to stop for it again and again, but to keep off.
   const Utterance keep_off =
-      near_words(close_kind(thing.thing_class), thing.thing_class, side, true);
+      near_words({CueKind::close, about(thing.thing_class)}, thing.thing_class, side, true);
   const bool along = same && last_.stop && !thing.moving && side != Side::ahead &&
                      danger->left > kTooLate && instead_of(keep_off, now.sounds);
-  const CueKind kind = comes   ? CueKind::obstacle_comes
-                       : along ? keep_off.kind
+  const Content told = comes   ? CueKind::obstacle_comes
+                       : along ? Content(keep_off)
                                : CueKind::obstacle_stop;
   const bool lasts = same && last_.stop && !last_.keep_off && time - last_.danger < kOver;
   if (same) last_.danger = time;
   // News is another thing, one that comes after a danger that was over, or the way into it.
   const bool came = comes && (told_to_stop || (same && !last_.stop));
-  if (said.too_soon(kind, time) || came || lasts) return std::nullopt;
+  if (said.too_soon(told, time) || came || lasts) return std::nullopt;
   last_ = {thing.id, time, time, !comes, along};
-  return Warning{along ? keep_off : near_words(kind, thing.thing_class, side, false), thing};
+  return Warning{along ? keep_off : near_words(told, thing.thing_class, side, false), thing};
 }
 
 /// What will be hit first, if soon enough to be warned of.

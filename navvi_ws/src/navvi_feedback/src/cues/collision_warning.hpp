@@ -61,7 +61,7 @@ class CollisionWarning {
     NearThing thing;
   };
   /// \param told_to_stop  just now: that something comes is no news
-  /// \param said  when kinds were said: one that would come too soon waits
+  /// \param said  when each was said: one that would come too soon waits
   /// \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::optional<Warning> update(const Observation& now, bool told_to_stop,
                                               const LastSaid& said, double time);

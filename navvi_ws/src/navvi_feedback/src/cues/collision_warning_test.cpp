@@ -72,12 +72,12 @@ TEST_F(StopTest,
     for (gap = from; gap > 0.0 && said.empty(); gap -= 0.05 * 0.02)
       said = pass(0.02, {shelf(gap, {0.0, 0.35 + gap})});
     EXPECT_EQ(said, Sides{Side::left});
-    return last_.kind;
+    return Content(last_);
   };
   pass(1.0, {shelf(0.2, {0.0, 0.55})});
   EXPECT_EQ(near(0.2), CueKind::obstacle_stop);
   pass(3.0, {shelf(0.2, {0.0, 0.55})});
-  EXPECT_EQ(near(0.2), CueKind::shelf_close);
+  EXPECT_EQ(near(0.2), Content(CueKind::close, About::shelf));
   EXPECT_EQ(last_.priority, Priority::message);
   EXPECT_EQ(near(gap), CueKind::obstacle_stop) << "who does not keep off";
   EXPECT_GT(gap, 0.05);
@@ -127,7 +127,7 @@ TEST_F(StopTest, who_drives_on_at_it_is_told_again) {
     return NearThing{ThingClass::pallet_robot, 3, gap, {gap + 0.4, 0.0}, true};
   };
   approach(pallet(2.0), 0.3, 9.0);
-  EXPECT_EQ(last_.kind, CueKind::obstacle_near);
+  EXPECT_EQ(Content(last_), Content(CueKind::near, About::obstacle));
   EXPECT_EQ(approach(pallet(gap_), 0.3, 1.0), Sides{Side::ahead});
   EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
   EXPECT_EQ(approach(pallet(gap_), 0.1, 2.0), Sides{});

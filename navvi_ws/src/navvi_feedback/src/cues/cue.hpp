@@ -14,8 +14,7 @@ using Family = navvi_types::CueFamily;
 struct Utterance;  // what is to be told, before it is put into words
 
 /// One spoken message, before it is spoken.
-struct Cue {
-  CueKind kind = CueKind::lesson;
+struct Cue : Content {
   std::string text = {};  ///< as spoken
   Priority priority = Priority::text;
   double max_age = 2.0;                    ///< s after which it is dropped if it has not begun
@@ -29,7 +28,7 @@ struct Cue {
 
   /// As CueEvent::word().
   [[nodiscard]] std::string word() const {
-    return kind == CueKind::lesson ? lesson : to_string(kind);
+    return kind == CueKind::lesson ? lesson : to_string(static_cast<Content>(*this));
   }
 };
 

@@ -31,7 +31,7 @@ bool is_fixed(const Utterance& utterance) {
 /// It asks to release the stick, too.
 bool asks_to_release(const Utterance& utterance) {
   return utterance.kind == CueKind::robot_stopped || utterance.kind == CueKind::pad_back ||
-         utterance.kind == CueKind::keyboard_back;
+         Content(utterance) == Content(CueKind::back, About::keyboard);
 }
 
 }  // namespace
@@ -72,9 +72,9 @@ std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, d
 
 std::optional<Cue> CuePolicy::order() const {
   if (!order_.now()) return std::nullopt;
-  const CueKind kind = order_.now()->kind;
-  return Cue{kind, order_.said().empty() ? phrasing_.shown(*order_.now()) : order_.said(),
-             traits(kind).priority};
+  const Utterance& words = *order_.now();
+  return Cue{Content(words), order_.said().empty() ? phrasing_.shown(words) : order_.said(),
+             traits(words.kind).priority};
 }
 
 Tick CuePolicy::look(const Observation& now, const Asked& asked, double time) {
@@ -115,7 +115,7 @@ void CuePolicy::remind(const Tick& tick, const Utterances& told) {
 bool CuePolicy::halt(const Utterances& told, const Tick& tick) {
   bool stops = false;
   for (const Utterance& utterance : told) {
-    const bool said = utterance.asked || !phrasing_.too_soon(utterance.kind, tick.time);
+    const bool said = utterance.asked || !phrasing_.too_soon(utterance, tick.time);
     if (family_of(utterance.kind) != Family::halt || !said) continue;
     // What leads all the time ends with a way that is blocked, and comes again with it.
     if (lasts(tick.now.lead) && utterance.kind == CueKind::blocked) continue;
@@ -170,13 +170,14 @@ std::vector<Cue> CuePolicy::say(const Utterances& told, const Tick& tick) {
 void CuePolicy::note(const std::vector<CueEvent>& events) {
   const auto replaced = [&](const CueEvent& gone) {
     return std::any_of(events.begin(), events.end(), [&](const CueEvent& event) {
-      return event.stage == CueStage::queued && event.kind() == gone.kind() && event.id > gone.id;
+      return event.stage == CueStage::queued && event.content() == gone.content() &&
+             event.id > gone.id;
     });
   };
   for (const CueEvent& event : events) {
     if (event.stage == CueStage::started) {
       phrasing_.heard(event, time_);
-      if (event.kind()) answers_.heard(*event.kind());
+      if (event.spoken()) answers_.heard(*event.spoken());
       if (event.kind() == CueKind::obstacle_comes) halt_.repeat(time_);
     }
     if (event.kind()) route_.note(*event.kind(), event.stage);
@@ -194,12 +195,12 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
 
 /// It was not heard.
 void CuePolicy::lost(const CueEvent& event) {
-  const CueKind kind = event.kind().value_or(CueKind::lesson);
+  const Content content = event.content().value_or(CueKind::lesson);
   phrasing_.forget(event);
-  near_.unsaid(kind);
-  route_.lost(kind, time_);
-  state_.lost(kind, time_);
-  answers_.lost(kind);
+  near_.unsaid(content);
+  route_.lost(content.kind, time_);
+  state_.lost(content, time_);
+  answers_.lost(content);
 }
 
 }  // namespace navvi_feedback::cues

@@ -62,9 +62,9 @@ TEST_F(CuePolicyTest, says_once_more_that_the_route_is_new_if_that_was_cut) {
   now_.guidance->waypoint_distance = 5.0;
   now_.guidance->reroutes = 1;
   EXPECT_EQ(pass(1.0), Texts{"new route, 9 o'clock, 5 meters"});
-  policy_.note({{1, CueStage::started, last_.kind, last_.text}});
+  policy_.note({{1, CueStage::started, Content(last_), last_.text}});
   EXPECT_EQ(pass(0.5), Texts{});
-  policy_.note({{1, CueStage::cut, last_.kind, last_.text}});
+  policy_.note({{1, CueStage::cut, Content(last_), last_.text}});
   EXPECT_EQ(pass(0.5), Texts{"new route, 9 o'clock, 5 meters"});
 }
 
@@ -207,7 +207,7 @@ TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
   EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
   const Cue lost = last_;
   EXPECT_EQ(lose_and_find(), Texts{});
-  policy_.note({{1, CueStage::dropped, lost.kind, lost.text}});
+  policy_.note({{1, CueStage::dropped, Content(lost), lost.text}});
   EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
 }
 

@@ -11,17 +11,16 @@ namespace {
 constexpr std::size_t kMaxWaiting = 2;
 
 CueEvent event(std::uint32_t id, CueStage stage, const Cue& cue) {
-  return {id, stage, navvi_types::Spoken(cue.kind, cue.lesson), cue.text, cue.priority};
+  return {id, stage, navvi_types::Spoken(cue, cue.lesson), cue.text, cue.priority};
 }
 
 bool stops(const Cue& cue) { return family_of(cue.kind) == Family::halt; }
 
 /// What a lost device makes untrue before it was said.
-std::optional<CueKind> undone_by(CueKind lost) {
-  if (lost == CueKind::pad_lost) return CueKind::pad_back;
-  if (lost == CueKind::keyboard_lost) return CueKind::keyboard_back;
+std::optional<Content> undone_by(const Content& lost) {
   if (lost == CueKind::proximity_lost) return CueKind::proximity_back;
-  return std::nullopt;
+  if (lost != CueKind::stick_lost) return std::nullopt;
+  return lost.about == About::pad ? CueKind::pad_back : Content(CueKind::back, lost.about);
 }
 
 /// It does not wait for another of its priority.
@@ -71,13 +70,13 @@ void CueQueue::enter(const Cue& cue, double time, Step& step) {
   const Entry entry{++last_id_, time, cue};
   step.events.push_back(event(entry.id, CueStage::queued, cue));
   if (stops(cue)) drop_ways(step);
-  const std::optional<CueKind> untrue = undone_by(cue.kind);
-  drop([&](const Entry& other) { return other.cue.kind == untrue; }, step);
+  const std::optional<Content> untrue = undone_by(cue);
+  drop([&](const Entry& other) { return untrue && Content(other.cue) == *untrue; }, step);
   const auto same = std::find_if(waiting_.begin(), waiting_.end(), [&](const Entry& other) {
-    // Two things that were hit are two messages of one kind.
+    // Two things that were hit may be two messages of one content.
     if (cue.asked && other.cue.asked) return true;
     const bool either = tells_sight(other.cue.kind) && tells_sight(cue.kind);
-    return (other.cue.kind == cue.kind || either) &&
+    return (Content(other.cue) == Content(cue) || either) &&
            (cue.priority < Priority::important || other.cue.text == cue.text);
   });
   if (same != waiting_.end() && same->cue.goes_on && !cue.goes_on && !cue.asked) {

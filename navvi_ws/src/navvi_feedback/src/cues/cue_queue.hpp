@@ -12,12 +12,12 @@ namespace navvi_feedback::cues {
 
 /// Decides when each cue is spoken (R-AUD-6). A higher priority cuts a lower one; an equal or lower
 /// one waits; nothing cuts an important one, a word to stop cuts all others, and what was asked for
-/// does, too, and takes the place of what was asked for before. Below `important` at most two wait; the least
-/// important is dropped first, but not what ends a wait. A newer cue of a kind replaces the waiting
-/// one, but an important one only if the text is the same, and what ends a wait only if it does so,
-/// too. A word to stop drops all that waits to say where to steer, and so does what ends a wait if
-/// it is not heard to its end. A cue that has waited beyond max_age is dropped. Every cue that
-/// enters reaches exactly one of ended, cut, dropped.
+/// does, too, and takes the place of what was asked for before. Below `important` at most two wait;
+/// the least important is dropped first, but not what ends a wait. A newer cue of a content
+/// replaces the waiting one, but an important one only if the text is the same, and what ends a
+/// wait only if it does so, too. A word to stop drops all that waits to say where to steer, and so
+/// does what ends a wait if it is not heard to its end. A cue that has waited beyond max_age is
+/// dropped. Every cue that enters reaches exactly one of ended, cut, dropped.
 class CueQueue {
  public:
   /// The order to the voice, and the events of the cues in order.

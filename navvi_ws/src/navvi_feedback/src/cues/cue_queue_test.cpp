@@ -8,21 +8,20 @@
 namespace navvi_feedback::cues {
 namespace {
 
-/// Some kinds, under short names; others have their own.
-CueKind kind_of(const std::string& name) {
-  static const std::map<std::string, CueKind> names = {
-      {"0", CueKind::goal_chosen}, {"1", CueKind::goal_sure},   {"2", CueKind::menu_begin},
-      {"3", CueKind::menu_goals},  {"4", CueKind::menu_place},  {"5", CueKind::menu_end},
-      {"6", CueKind::menu_empty},  {"7", CueKind::menu_closed}, {"8", CueKind::no_trial},
-      {"9", CueKind::setting},     {"a", CueKind::where},       {"b", CueKind::around},
-      {"c", CueKind::no_goal},     {"d", CueKind::help_pad},    {"e", CueKind::help_keys},
-      {"f", CueKind::goal_info},   {"s", CueKind::pad_lost},    {"hit", CueKind::collision_wall}};
+/// Some words have short names.
+Content content_of(const std::string& name) {
+  static const std::map<std::string, std::string> names = {
+      {"0", "goal_chosen"}, {"1", "goal_sure"},   {"2", "menu_begin"}, {"3", "menu_goals"},
+      {"4", "menu_place"},  {"5", "menu_end"},    {"6", "menu_empty"}, {"7", "menu_closed"},
+      {"8", "no_trial"},    {"9", "setting"},     {"a", "where"},      {"b", "around"},
+      {"c", "no_goal"},     {"d", "help_pad"},    {"e", "help_keys"},  {"f", "goal_info"},
+      {"s", "pad_lost"},    {"hit", "collision_wall"}};
   const auto found = names.find(name);
-  return found != names.end() ? found->second : *navvi_types::from_word<CueKind>(name);
+  return *navvi_types::from_word<Content>(found != names.end() ? found->second : name);
 }
 
 Cue cue(const std::string& name, Priority priority, double max_age = 2.0) {
-  return {kind_of(name), "text of " + name, priority, max_age};
+  return {content_of(name), "text of " + name, priority, max_age};
 }
 
 /// "stage kind" of each event, in order.

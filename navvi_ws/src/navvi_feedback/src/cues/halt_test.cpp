@@ -34,7 +34,7 @@ TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   now_.guidance->state = Guidance::State::blocked;
   now_.guidance->blocked_by = ThingClass::worker;
   pass(1.0);
-  const auto heard = [&] { policy_.note({{1, CueStage::started, last_.kind, last_.text}}); };
+  const auto heard = [&] { policy_.note({{1, CueStage::started, Content(last_), last_.text}}); };
   heard();
   pass(1.0);
   asked_.question = Question::way;
@@ -136,7 +136,7 @@ TEST_F(HaltTest, takes_back_no_wait_that_was_never_heard) {
   under_way();
   now_.guidance->state = Guidance::State::blocked;
   EXPECT_EQ(pass(0.6).size(), 1U);
-  policy_.note({{1, CueStage::dropped, last_.kind, last_.text}});
+  policy_.note({{1, CueStage::dropped, Content(last_), last_.text}});
   now_.guidance->state = Guidance::State::following;
   for (const std::string& text : pass(3.0)) EXPECT_EQ(text.find("go on"), std::string::npos);
 }
@@ -145,7 +145,7 @@ TEST_F(HaltTest, takes_back_no_wait_for_an_older_word_that_was_never_heard) {
   under_way();
   now_.guidance->state = Guidance::State::blocked;
   EXPECT_EQ(pass(0.6).size(), 1U);
-  const CueEvent older{1, CueStage::queued, last_.kind, last_.text};
+  const CueEvent older{1, CueStage::queued, Content(last_), last_.text};
   const CueEvent newer{2, CueStage::queued, navvi_types::Spoken(CueKind::obstacle_stop),
                        "stop, box ahead"};
   policy_.note({older, newer});

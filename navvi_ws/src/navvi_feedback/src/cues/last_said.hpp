@@ -6,20 +6,20 @@
 
 namespace navvi_feedback::cues {
 
-/// When each kind of cue was last said.
+/// When each content was last said.
 class LastSaid {
  public:
-  void note(CueKind kind, double time) { said_[kind] = time; }
-  void forget(CueKind kind) { said_.erase(kind); }
+  void note(const Content& content, double time) { said_[content] = time; }
+  void forget(const Content& content) { said_.erase(content); }
 
-  /// One of this kind now would come within its least interval.
-  [[nodiscard]] bool too_soon(CueKind kind, double time) const {
-    const auto said = said_.find(kind);
-    return said != said_.end() && time - said->second < navvi_types::traits(kind).min_interval;
+  /// It would come within its least interval now.
+  [[nodiscard]] bool too_soon(const Content& content, double time) const {
+    const auto said = said_.find(content);
+    return said != said_.end() && time - said->second < traits(content.kind).min_interval;
   }
 
  private:
-  std::map<CueKind, double> said_;  ///< s
+  std::map<Content, double> said_;  ///< s
 };
 
 }  // namespace navvi_feedback::cues

@@ -15,16 +15,16 @@ constexpr double kSteady = 5.0;
 
 }  // namespace
 
-CueKind lost_stick(const Observation& now) {
+Content lost_stick(const Observation& now) {
   const auto& states = now.devices.states;
   if (std::count(states.begin(), states.end(), CueKind::pad_too_late) > 0)
     return CueKind::pad_too_late;
-  return now.devices.keyboard ? CueKind::keyboard_lost : CueKind::pad_lost;
+  return {CueKind::stick_lost, now.devices.keyboard ? About::keyboard : About::pad};
 }
 
-CueKind lost_robot(const Observation& now) {
+Content lost_robot(const Observation& now) {
   if (now.cut_off) return CueKind::connection_lost;
-  return now.simulated ? CueKind::simulator_lost : CueKind::odometry_lost;
+  return {CueKind::robot_lost, now.simulated ? About::simulator : About::odometry};
 }
 
 Link Flapping::judge(Link now, double time) {
@@ -52,7 +52,7 @@ const Links& LinkCues::judge(const Observation& now, double time) {
 
 Utterances LinkCues::update(const Observation& now) {
   Utterances told;
-  const auto say = [&](CueKind kind) { told.push_back({kind}); };
+  const auto say = [&](const Content& content) { told.push_back({content}); };
   const auto lost = [&](Link Links::*link) {
     return last_.*link != Link::lost && links_.*link == Link::lost;
   };
@@ -61,11 +61,12 @@ Utterances LinkCues::update(const Observation& now) {
   };
   // NoticeCues says of one that comes too late.
   if (lost(&Links::pad) && lost_stick(now) != CueKind::pad_too_late) say(lost_stick(now));
-  if (back(&Links::pad)) say(now.devices.keyboard ? CueKind::keyboard_back : CueKind::pad_back);
+  const auto again = [&](About device) { say({CueKind::back, device}); };
+  if (back(&Links::pad)) now.devices.keyboard ? again(About::keyboard) : say(CueKind::pad_back);
   if (lost(&Links::simulator)) say(lost_robot(now));
   if (lost(&Links::simulator)) cut_off_ = now.cut_off;
-  if (back(&Links::simulator) && cut_off_) say(CueKind::connection_back);
-  if (back(&Links::audio)) say(CueKind::audio_back);
+  if (back(&Links::simulator) && cut_off_) again(About::connection);
+  if (back(&Links::audio)) again(About::audio);
   const bool simulated = links_.simulator != Link::lost;
   if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);
   if (simulated && back(&Links::proximity)) say(CueKind::proximity_back);

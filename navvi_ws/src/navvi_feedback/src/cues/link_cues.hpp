@@ -8,9 +8,9 @@
 namespace navvi_feedback::cues {
 
 /// The words for a stick that is lost, or whose messages come too late.
-[[nodiscard]] CueKind lost_stick(const Observation& now);
+[[nodiscard]] Content lost_stick(const Observation& now);
 /// The words for a robot that is silent: of the connection, the simulator, or its odometry.
-[[nodiscard]] CueKind lost_robot(const Observation& now);
+[[nodiscard]] Content lost_robot(const Observation& now);
 
 /// A device that comes and goes: its loss counts at once, its return too, unless it flaps; then it
 /// counts as lost until it has been steady, so that its loss is told once.

@@ -111,7 +111,8 @@ TEST_F(LinkCuesTest, says_once_that_a_flapping_device_is_lost_and_is_back_once_s
     for (int i = 0; i < 20; ++i)
       for (const std::string& text : flap(&Links::pad, seconds)) told.push_back(text);
     EXPECT_EQ(told, Texts{"the keys are off, select the keyboard window"}) << seconds;
-    EXPECT_EQ(policy_.order().value().kind, CueKind::keyboard_lost) << "what was said is shown";
+    EXPECT_EQ(Content(policy_.order().value()), Content(CueKind::stick_lost, About::keyboard))
+        << "what was said is shown";
     EXPECT_EQ(pass(6.0).front(), "the keys are on, release them first");
   }
   pass(30.0);

@@ -40,7 +40,7 @@ Utterances NearCues::update(const Observation& now, bool all, Hold hold, double 
     // A side of which this was said needs no more words, either.
     things_[thing.id] =
         watches_[{thing.thing_class, side_of_lane(thing.nearest)}] = {Level::close, time};
-    said_.note(warning->utterance.kind, time);
+    said_.note(warning->utterance, time);
     return {warning->utterance};
   }
   std::optional<Candidate> best;
@@ -48,13 +48,13 @@ Utterances NearCues::update(const Observation& now, bool all, Hold hold, double 
   if (all && config_.obstacles) consider_things(now, hold.ahead, time, best);
   if (!best) return {};
   *best->watch = {best->level, time};
-  said_.note(best->utterance.kind, time);
+  said_.note(best->utterance, time);
   return {best->utterance};
 }
 
-void NearCues::unsaid(CueKind kind) {
-  said_.forget(kind);
-  if (kind == CueKind::obstacle_stop || kind == CueKind::obstacle_comes) warning_.lost();
+void NearCues::unsaid(const Content& content) {
+  said_.forget(content);
+  if (content == CueKind::obstacle_stop || content == CueKind::obstacle_comes) warning_.lost();
 }
 
 void NearCues::consider_sides(const Observation& now, bool straight, double time,
@@ -82,11 +82,9 @@ void NearCues::consider_sides(const Observation& now, bool straight, double time
     if (side == Side::behind && !urgent) continue;
     if ((now.voice_busy && !urgent) || (straight && side == Side::ahead))
       if (!now.sounds.shelf) continue;
-    const CueKind kind = reached == Level::close      ? close_kind(thing)
-                         : thing == ThingClass::shelf ? CueKind::shelf_near
-                                                      : CueKind::wall_near;
-    if (said_.too_soon(kind, time)) continue;
-    best = Candidate{near_words(kind, thing, side, urgent), gap, &watch, reached};
+    const Content told(reached == Level::close ? CueKind::close : CueKind::near, about(thing));
+    if (said_.too_soon(told, time)) continue;
+    best = Candidate{near_words(told, thing, side, urgent), gap, &watch, reached};
   }
 }
 
@@ -109,9 +107,9 @@ void NearCues::consider_things(const Observation& now, bool straight, double tim
     const bool urgent = approaches(now, side);
     if ((now.voice_busy && !urgent) || (straight && side == Side::ahead))
       if (!now.sounds.near) continue;
-    const CueKind kind = close ? CueKind::obstacle_close : CueKind::obstacle_near;
-    if (said_.too_soon(kind, time) || (best && thing.gap >= best->gap)) continue;
-    best = Candidate{near_words(kind, thing.thing_class, side, urgent), thing.gap, &watch, reached};
+    const Content told(close ? CueKind::close : CueKind::near, About::obstacle);
+    if (said_.too_soon(told, time) || (best && thing.gap >= best->gap)) continue;
+    best = Candidate{near_words(told, thing.thing_class, side, urgent), thing.gap, &watch, reached};
   }
 }
 

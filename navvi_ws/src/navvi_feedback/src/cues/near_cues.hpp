@@ -37,8 +37,8 @@ class NearCues {
     return warning_.comes(now, time);
   }
 
-  /// Words of this kind were dropped: what they told may be told again at once.
-  void unsaid(CueKind kind);
+  /// These words were dropped: what they told may be told again at once.
+  void unsaid(const Content& content);
 
  private:
   enum class Level { none, near, close };
@@ -67,7 +67,7 @@ class NearCues {
   NearConfig config_;
   CollisionWarning warning_;
   std::map<std::pair<ThingClass, Side>, Watch> watches_;
-  LastSaid said_;  ///< a kind that would come too soon waits, so that it is not lost
+  LastSaid said_;  ///< what would come too soon waits, so that it is not lost
   std::map<std::uint32_t, Watch> things_;  ///< by id
 };
 

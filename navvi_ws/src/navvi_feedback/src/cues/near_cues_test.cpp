@@ -14,7 +14,7 @@ TEST_F(NearCuesTest, says_nothing_where_nothing_is_near) {
 
 TEST_F(NearCuesTest, says_once_that_a_shelf_is_within_a_metre_and_on_which_side) {
   EXPECT_EQ(pass(5.0, {shelf(0.99, kLeft)}), Sides{Side::left});
-  EXPECT_EQ(last_.kind, CueKind::shelf_near);
+  EXPECT_EQ(Content(last_), Content(CueKind::near, About::shelf));
   EXPECT_FALSE(last_.priority);
 }
 
@@ -36,12 +36,12 @@ TEST_F(NearCuesTest, says_it_again_after_the_shelf_was_gone_for_a_while) {
 
 TEST_F(NearCuesTest, says_it_once_more_when_the_shelf_is_close) {
   pass(1.0, {shelf(0.9, kLeft)});
-  EXPECT_EQ(last_.kind, CueKind::shelf_near);
+  EXPECT_EQ(Content(last_), Content(CueKind::near, About::shelf));
   EXPECT_EQ(pass(5.0, {shelf(0.3, kLeft)}), Sides{Side::left});
-  EXPECT_EQ(last_.kind, CueKind::shelf_close);
+  EXPECT_EQ(Content(last_), Content(CueKind::close, About::shelf));
   pass(5.0, {});
   pass(1.0, {{ThingClass::wall, 1, 0.3, kRight, false}});
-  EXPECT_EQ(last_.kind, CueKind::wall_close);
+  EXPECT_EQ(Content(last_), Content(CueKind::close, About::wall));
 }
 
 TEST_F(NearCuesTest, says_both_sides_of_a_narrow_aisle_one_after_the_other) {
@@ -66,7 +66,7 @@ TEST_F(NearCuesTest, names_what_is_behind_only_while_the_robot_drives_back) {
 
 TEST_F(NearCuesTest, speaks_of_walls_too) {
   EXPECT_EQ(pass(1.0, {{ThingClass::wall, 1, 0.5, kRight, false}}), Sides{Side::right});
-  EXPECT_EQ(last_.kind, CueKind::wall_near);
+  EXPECT_EQ(Content(last_), Content(CueKind::near, About::wall));
 }
 
 TEST_F(NearCuesTest, names_a_thing_once_that_the_robot_drives_towards) {
@@ -75,7 +75,7 @@ TEST_F(NearCuesTest, names_a_thing_once_that_the_robot_drives_towards) {
   now_.measured->linear = 0.5;
   now_.voice_busy = true;
   EXPECT_EQ(pass(5.0, {pedestal}), Sides{Side::ahead});
-  EXPECT_EQ(last_.kind, CueKind::obstacle_near);
+  EXPECT_EQ(Content(last_), Content(CueKind::near, About::obstacle));
   EXPECT_EQ(last_.fillings.thing, ThingClass::pedestal);
   EXPECT_EQ(last_.priority, Priority::message);
   EXPECT_EQ(pass(1.0, {{ThingClass::box, 4, 0.8, kAhead, false}}), Sides{Side::ahead});
@@ -101,7 +101,7 @@ TEST_F(NearCuesTest, names_what_moves_about_once_more_if_the_robot_may_brush_it)
   };
   EXPECT_EQ(pass(1.0, {worker(0.9, kAhead)}), Sides{Side::ahead});
   EXPECT_EQ(pass(2.0, {worker(0.3, kLeft)}), Sides{Side::left});
-  EXPECT_EQ(last_.kind, CueKind::obstacle_close);
+  EXPECT_EQ(Content(last_), Content(CueKind::close, About::obstacle));
   EXPECT_EQ(pass(5.0, {worker(0.2, kLeft)}), Sides{}) << "it was said";
   EXPECT_EQ(pass(9.0, {}), Sides{});
   EXPECT_EQ(pass(2.0, {worker(0.3, {-0.1, 1.3})}), Sides{}) << "it is left behind";

@@ -32,8 +32,8 @@ sounds::Earcon earcon_of(ThingClass thing) {
 
 std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds& sounds) {
   using sounds::Earcon;
-  if (!is_near(family_of(utterance.kind))) return std::nullopt;
-  const bool close = family_of(utterance.kind) == Family::close;
+  if (!is_near(utterance.kind)) return std::nullopt;
+  const bool close = utterance.kind == CueKind::close;
   const ThingClass thing = utterance.fillings.thing.value_or(ThingClass::other);
   const bool shelf = is_structure(thing);
   if (!(shelf ? sounds.shelf : sounds.near)) return std::nullopt;
@@ -76,13 +76,8 @@ std::optional<Utterance> stops_before(const std::vector<NearThing>& nearby, doub
   return std::nullopt;
 }
 
-Utterance near_words(CueKind kind, ThingClass thing, Side side, bool urgent) {
-  return {kind, {{}, {}, thing, side}, urgent ? std::optional(Priority::message) : std::nullopt};
-}
-
-CueKind close_kind(ThingClass thing) {
-  if (thing == ThingClass::shelf) return CueKind::shelf_close;
-  return thing == ThingClass::wall ? CueKind::wall_close : CueKind::obstacle_close;
+Utterance near_words(const Content& content, ThingClass thing, Side side, bool urgent) {
+  return {content, {{}, {}, thing, side}, urgent ? std::optional(Priority::message) : std::nullopt};
 }
 
 }  // namespace navvi_feedback::cues

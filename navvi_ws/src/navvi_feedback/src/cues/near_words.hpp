@@ -25,8 +25,7 @@ namespace navvi_feedback::cues {
                                                     double stops_in);
 
 /// Words about a thing on a side. \param urgent  the robot drives at it
-[[nodiscard]] Utterance near_words(CueKind kind, ThingClass thing, Side side, bool urgent);
-/// The kind that tells of a thing that is all but touched.
-[[nodiscard]] CueKind close_kind(ThingClass thing);
+[[nodiscard]] Utterance near_words(const Content& content, ThingClass thing, Side side,
+                                   bool urgent);
 
 }  // namespace navvi_feedback::cues

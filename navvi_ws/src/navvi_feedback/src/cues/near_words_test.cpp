@@ -6,8 +6,9 @@ namespace navvi_feedback::cues {
 namespace {
 
 TEST(InsteadOf, is_a_sound_for_what_is_near_where_its_family_is_heard) {
-  const Utterance shelf{CueKind::wall_close, {{}, {}, ThingClass::wall, Side::left}};
-  const Utterance worker{CueKind::obstacle_near, {{}, {}, ThingClass::worker, Side::right}};
+  const Utterance shelf{{CueKind::close, About::wall}, {{}, {}, ThingClass::wall, Side::left}};
+  const Utterance worker{{CueKind::near, About::obstacle},
+                         {{}, {}, ThingClass::worker, Side::right}};
   const Utterance stop{CueKind::obstacle_stop, {{}, {}, ThingClass::worker, Side::ahead}};
   const Sounds all{true, true};
   EXPECT_FALSE(instead_of(shelf, {false, true}));
@@ -21,11 +22,11 @@ TEST(InsteadOf, is_a_sound_for_what_is_near_where_its_family_is_heard) {
 
 TEST(InsteadOf, sounds_stand_for_what_is_near_and_for_no_other_words) {
   const Sounds all{true, true};
-  for (const CueKind kind : phrase_kinds()) {
-    Utterance told{kind};
+  for (const Content& content : navvi_types::contents()) {
+    Utterance told{content};
     told.fillings.thing = ThingClass::shelf;
     told.fillings.side = Side::left;
-    EXPECT_EQ(instead_of(told, all).has_value(), is_near(family_of(kind))) << to_string(kind);
+    EXPECT_EQ(instead_of(told, all).has_value(), is_near(content.kind)) << to_string(content);
   }
   EXPECT_FALSE(instead_of({CueKind::menu_closed}, all)) << "a menu is not a thing";
 }

@@ -4,13 +4,13 @@ namespace navvi_feedback::cues {
 
 Utterances NoticeCues::update(const Tick& tick) {
   Utterances told;
-  std::set<CueKind> notices(tick.now.notices.begin(), tick.now.notices.end());
+  std::set<Content> notices(tick.now.notices.begin(), tick.now.notices.end());
   if (tick.asked.menu_closed) notices.insert(CueKind::menu_closed);
-  for (const CueKind notice : notices) {
+  for (const Content& notice : notices) {
     if (noticed_.count(notice) > 0) continue;
     told.push_back({notice});
     told.back().fillings.person = tick.now.devices.person;
-    if (family_of(notice) == Family::trial_end) trial_over_ = tick.time;
+    if (family_of(notice.kind) == Family::trial_end) trial_over_ = tick.time;
   }
   noticed_ = notices;
   return told;

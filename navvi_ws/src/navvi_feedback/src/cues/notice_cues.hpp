@@ -25,7 +25,7 @@ class NoticeCues {
 
  private:
   double last_words_;
-  std::set<CueKind> noticed_;         ///< as of the last update
+  std::set<Content> noticed_;         ///< as of the last update
   std::optional<double> trial_over_;  ///< s
 };
 

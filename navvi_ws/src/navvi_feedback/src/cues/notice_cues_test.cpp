@@ -11,24 +11,24 @@ class NoticeCuesTest : public CuePolicyTest {};
 
 TEST_F(NoticeCuesTest, says_a_notice_once) {
   under_way();
-  now_.notices = {CueKind::no_rumble};
+  now_.notices = {{CueKind::notice, About::no_rumble}};
   EXPECT_EQ(pass(3.0), Texts{"this controller cannot rumble"});
   now_.notices.clear();
   EXPECT_EQ(pass(6.0), Texts{});
-  now_.notices = {CueKind::no_rumble};
+  now_.notices = {{CueKind::notice, About::no_rumble}};
   EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
 TEST_F(NoticeCuesTest, names_the_person_whose_settings_are_used) {
   under_way();
   now_.devices.person = "sub-01_b";
-  now_.notices = {CueKind::settings_of};
+  now_.notices = {{CueKind::settings, About::of}};
   EXPECT_EQ(pass(1.0), Texts{"settings of sub-01 b"});
 }
 
 TEST_F(NoticeCuesTest, gives_no_direction_right_after_the_end_of_a_trial) {
   under_way();
-  now_.notices = {CueKind::trial_time_up};
+  now_.notices = {{CueKind::trial_ends, About::time_up}};
   EXPECT_EQ(pass(0.02), Texts{"time is up, the trial is over"});
   now_.notices.clear();
   now_.guidance->steer_angle = now_.guidance->waypoint_angle = 2.0;

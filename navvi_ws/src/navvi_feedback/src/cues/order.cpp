@@ -23,7 +23,7 @@ std::optional<Utterance> undriveable(const Tick& tick) {
 /// As long as it is so.
 std::optional<Utterance> lasting(const Tick& tick, const StateCues& state, const HeldStick& held,
                                  const Halt& halt, const RouteCues& route, bool leads) {
-  const std::optional<CueKind> problem = state.problem();
+  const std::optional<Content> problem = state.problem();
   if (problem && problem != CueKind::blocked && problem != CueKind::welcome)
     return problem_words(*problem, tick.now);
   if (held.needed()) return Utterance{*held.needed()};
@@ -39,11 +39,11 @@ bool replaces(Ask ask) { return ask != Ask::nothing && ask != Ask::beware && ask
 }  // namespace
 
 void Order::note(const CueEvent& event, double time) {
-  const auto* const spoken = std::get_if<navvi_types::Spoken>(&event.what);
+  const navvi_types::Spoken* const spoken = event.spoken();
   if (!spoken || !spoken->lesson.empty()) return;
   const navvi_types::CueTraits& kind = traits(spoken->kind);
   if (event.stage == CueStage::started && kind.shown)
-    event_ = Event{Utterance{kind.kind}, event.text, time, event.id};
+    event_ = Event{Utterance{*spoken}, event.text, time, event.id};
   else if (event.stage == CueStage::started && replaces(kind.ask))
     event_.reset();
   else if (event.stage == CueStage::cut && event_ && event.id == event_->id)
@@ -56,7 +56,7 @@ void Order::update(const Tick& tick, const StateCues& state, const HeldStick& he
   for (const Cue& cue : told) {
     if (family_of(cue.kind) == Family::halt) event_.reset();
     if (traits(cue.kind).shown && cue.felt && !halt.halted())
-      event_ = Event{Utterance{cue.kind}, cue.text, tick.time};
+      event_ = Event{Utterance{cue}, cue.text, tick.time};
   }
   if (event_ && tick.time - event_->time >= kShown) event_.reset();
   undriveable_ = undriveable(tick);

@@ -86,9 +86,16 @@ const std::set<std::string> kPicture = {"drive",
                                         "vision_color_blind",
                                         "vision_paper"};
 
-std::set<std::string> kind_keys() {
+/// A phrase stands under its content, or under the kind for all that this may be about.
+bool may_be_general(const Content& content) {
+  return traits(content.kind).about.front() != About::none;
+}
+
+std::set<std::string> phrase_keys() {
   std::set<std::string> keys;
-  for (const CueKind kind : phrase_kinds()) keys.insert(to_string(kind));
+  for (const Content& content : navvi_types::contents())
+    keys.insert({to_string(content), to_string(content.kind)});
+  keys.erase("");  // of a kind that is nothing but what it is about
   return keys;
 }
 
@@ -255,25 +262,18 @@ void check_sections(const std::string& name, const YAML::Node& root) {
 
 /// Whatever leads on may have to end a wait.
 void check_ends_of_waits(const std::string& name, const YAML::Node& root,
-                         const std::map<std::string, std::map<CueKind, std::string>>& phrases,
+                         const std::map<std::string, std::map<Content, std::string>>& phrases,
                          const std::map<std::string, std::string>& words) {
   for (const auto& [which, texts] : phrases)
-    for (const auto& [kind, text] : texts)
+    for (const auto& [content, text] : texts)
       for (const auto& ends : phrases)
         if (const auto go_on = ends.second.find(CueKind::go_on);
-            is_way(family_of(kind)) && go_on != ends.second.end())
-          check_phrase(Section(name, root, which), to_string(kind), go_on->second + ", " + text,
+            is_way(family_of(content.kind)) && go_on != ends.second.end())
+          check_phrase(Section(name, root, which), to_string(content), go_on->second + ", " + text,
                        words);
 }
 
 }  // namespace
-
-std::vector<CueKind> phrase_kinds() {
-  std::vector<CueKind> kinds;
-  for (const navvi_types::CueTraits& row : navvi_types::cue_table::kRows)
-    if (row.kind != CueKind::lesson) kinds.push_back(row.kind);
-  return kinds;
-}
 
 bool speakable(const std::string& text) {
   if (text.empty() || text.size() > kMaxBytes) return false;
@@ -328,14 +328,16 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
 
   Section phrases(name, root, "phrases");
   const auto read_phrases = [&](Section& section, const std::string& which) {
-    for (const auto& [key, text] : section.read(kind_keys())) {
+    for (const auto& [key, text] : section.read(phrase_keys())) {
       check_phrase(section, key, text, words_);
-      phrases_[which].emplace(*navvi_types::from_word<CueKind>(key), text);
+      phrases_[which].emplace(*navvi_types::from_word<Content>(key), text);
     }
   };
   read_phrases(phrases, "phrases");
-  for (const CueKind kind : phrase_kinds())
-    if (phrases_["phrases"].count(kind) == 0) phrases.fail(to_string(kind), "is missing");
+  const std::map<Content, std::string>& usual = phrases_["phrases"];
+  for (const Content& content : navvi_types::contents())
+    if (usual.count(content) == 0 && !(may_be_general(content) && usual.count(content.kind) > 0))
+      phrases.fail(to_string(content), "is missing");
 
   for (const char* which : kInstead) {
     Section section(name, root, which);
@@ -345,17 +347,20 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   check_ends_of_waits(name, root, phrases_, words_);
 }
 
-std::string Phrases::say(CueKind kind, const Fillings& fillings, bool again) const {
+std::string Phrases::say(const Content& content, const Fillings& fillings, bool again) const {
   for (const std::string& section :
        {std::string("again"), wording_.verbosity, wording_.directions, std::string("phrases")}) {
     if (section == "again" && !again) continue;
     const auto phrases = phrases_.find(section);
     if (phrases == phrases_.end()) continue;
-    if (const auto phrase = phrases->second.find(kind); phrase != phrases->second.end())
+    auto phrase = phrases->second.find(content);
+    if (phrase == phrases->second.end() && may_be_general(content))
+      phrase = phrases->second.find(content.kind);
+    if (phrase != phrases->second.end())
       return fill_in(phrase->second,
                      [&](const std::string& name) { return filling(name, fillings); });
   }
-  throw std::logic_error(std::string("\"") + to_string(kind) + "\" has no phrase.");
+  throw std::logic_error("\"" + to_string(content) + "\" has no phrase.");
 }
 
 std::string Phrases::filling(const std::string& placeholder, const Fillings& fillings) const {

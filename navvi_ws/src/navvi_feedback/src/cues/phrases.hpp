@@ -66,8 +66,7 @@ struct Fillings {
 };
 
 /// A cue that is not worded yet.
-struct Utterance {
-  CueKind kind = CueKind::lesson;
+struct Utterance : Content {
   Fillings fillings = {};
   std::optional<Priority> priority = {};     ///< instead of the kind's own
   bool asked = false;                        ///< by the person: said however often
@@ -91,15 +90,15 @@ class Phrases {
   /// \param file  with the sections voice, phrases, words, picture; in clock, brief and full stand
   /// phrases that are said instead where that wording is wanted, brief and full before clock, and
   /// in again what is said instead of the same words once more \throws navvi_config::ConfigError
-  /// with file, line and key if the file is missing or no YAML, if a CueKind has no
+  /// with file, line and key if the file is missing or no YAML, if a Content has no
   /// phrase or a word is missing, if a key or placeholder is unknown, or if a text, filled in any
   /// way, and after the phrase go_on if it is of the way, would not be speakable().
   explicit Phrases(const std::filesystem::path& file, const WordingConfig& wording = {});
 
-  /// \throws std::logic_error for an unknown kind, a filling that the phrase needs and that is
+  /// \throws std::logic_error for a lesson, a filling that the phrase needs and that is
   /// missing or not finite: a mistake in the program, as the file was checked when it was read
   /// \param again  what it has for what was just said, if it has
-  [[nodiscard]] std::string say(CueKind kind, const Fillings& fillings = {},
+  [[nodiscard]] std::string say(const Content& content, const Fillings& fillings = {},
                                 bool again = false) const;
 
   /// From now on.
@@ -124,14 +123,11 @@ class Phrases {
 
   WordingConfig wording_;
   std::string voice_;
-  std::map<std::string, std::map<CueKind, std::string>> phrases_;  ///< by section
+  std::map<std::string, std::map<Content, std::string>> phrases_;  ///< by section
   std::map<std::string, std::string> words_;
   std::map<std::string, std::string> picture_;
   std::map<std::string, std::string> lessons_;
 };
-
-/// Every kind but that of lessons, whose texts stand in a section of their own.
-[[nodiscard]] std::vector<CueKind> phrase_kinds();
 
 /// True if `text` may be spoken: UTF-8 of Latin, Greek or Cyrillic letters, digits and " ,.'-",
 /// with at least one of the former, at most 80 bytes in all and 24 bytes a word.

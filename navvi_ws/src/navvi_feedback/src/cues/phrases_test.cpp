@@ -99,8 +99,8 @@ TEST(Phrases, of_every_kind_can_be_spoken_in_each_language_and_wording) {
   for (const fs::path& language : {kEnglish, kSpanish})
     for (const WordingConfig& worded : all_wordings()) {
       const Phrases phrases(language, worded);
-      for (const CueKind kind : phrase_kinds())
-        EXPECT_TRUE(speakable(phrases.say(kind, everything()))) << to_string(kind);
+      for (const Content& content : navvi_types::contents())
+        EXPECT_TRUE(speakable(phrases.say(content, everything()))) << to_string(content);
     }
 }
 
@@ -112,15 +112,11 @@ TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
   EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn to 3 o'clock now");
   EXPECT_EQ(phrases.say(CueKind::start, everything()),
             "the goal is 8 meters along the path, at 3 o'clock");
-  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "shelf on your left");
-  EXPECT_EQ(phrases.say(CueKind::shelf_close, everything()), "shelf very close, on your left");
-  EXPECT_EQ(phrases.say(CueKind::obstacle_near, everything()), "pallet robot on your left");
+  EXPECT_EQ(phrases.say(CueKind::near, everything()), "pallet robot on your left");
   EXPECT_EQ(phrases.say(CueKind::obstacle_stop, everything()), "stop, pallet robot on your left");
-  EXPECT_EQ(phrases.say(CueKind::obstacle_close, everything()),
-            "pallet robot very close, on your left");
+  EXPECT_EQ(phrases.say(CueKind::close, everything()), "pallet robot very close, on your left");
   EXPECT_EQ(phrases.say(CueKind::release_stick), "release the stick");
-  EXPECT_EQ(phrases.say(CueKind::collision_obstacle, everything()),
-            "hit a pallet robot on your left");
+  EXPECT_EQ(phrases.say(CueKind::collision, everything()), "hit a pallet robot on your left");
   EXPECT_EQ(phrases.say(CueKind::stuck, everything()), "stuck, pallet robot left, try 3 o'clock");
   EXPECT_EQ(phrases.say(CueKind::arrived), "you have reached the goal");
 }
@@ -162,7 +158,8 @@ TEST(Phrases, are_shorter_or_longer_where_that_is_wanted) {
             "wait, pallet robot in the way, I will say when to go on");
   const auto bytes = [](const Phrases& phrases) {
     std::size_t sum = 0;
-    for (const CueKind kind : phrase_kinds()) sum += phrases.say(kind, everything()).size();
+    for (const Content& content : navvi_types::contents())
+      sum += phrases.say(content, everything()).size();
     return sum;
   };
   for (const fs::path& language : {kEnglish, kSpanish}) {
@@ -180,7 +177,8 @@ TEST(Phrases, speak_spanish_with_its_letters_its_plurals_and_its_first_hour) {
   one.distance = 1.0;
   EXPECT_EQ(phrases.say(CueKind::direction, one), "gire hacia la una, 1 metro");
   EXPECT_EQ(phrases.say(CueKind::direction, everything()), "gire hacia las 3, 8 metros");
-  EXPECT_EQ(phrases.say(CueKind::shelf_near, everything()), "estanter\u00eda a su izquierda");
+  one.thing = ThingClass::shelf;
+  EXPECT_EQ(phrases.say({CueKind::near, About::shelf}, one), "estanter\u00eda a su izquierda");
 }
 
 TEST(Phrases, name_what_the_hands_are_on) {
@@ -189,7 +187,7 @@ TEST(Phrases, name_what_the_hands_are_on) {
   const Phrases english(kEnglish);
   EXPECT_EQ(english.say(CueKind::robot_stopped), "robot stopped, release the stick");
   EXPECT_EQ(english.say(CueKind::robot_stopped, keys), "robot stopped, release the keys");
-  EXPECT_EQ(english.say(CueKind::setting_open, keys),
+  EXPECT_EQ(english.say({CueKind::menu, About::setting_open}, keys),
             "volume, 2 percent, page up for more, page down for less");
   EXPECT_EQ(Phrases(kSpanish).say(CueKind::release_stick, keys), "suelte las teclas");
 }
@@ -198,11 +196,11 @@ TEST(Phrases, call_what_has_no_name_something) {
   Fillings fillings = everything();
   fillings.thing = ThingClass::other;
   const Phrases english(kEnglish);
-  EXPECT_EQ(english.say(CueKind::collision_obstacle, fillings), "hit something on your left");
+  EXPECT_EQ(english.say(CueKind::collision, fillings), "hit something on your left");
   EXPECT_EQ(english.say(CueKind::obstacle_comes, fillings), "something coming, on your left");
   EXPECT_EQ(english.say(CueKind::make_room, fillings),
             "move to 3 o'clock, 8 meters, to let something pass");
-  EXPECT_EQ(Phrases(kSpanish).say(CueKind::collision_obstacle, fillings),
+  EXPECT_EQ(Phrases(kSpanish).say(CueKind::collision, fillings),
             "choque, algo a su izquierda");
 }
 
@@ -254,11 +252,12 @@ TEST(Phrases, give_feet_where_they_are_wanted) {
 
 TEST(Phrases, name_places_with_their_number) {
   const Phrases phrases(kEnglish);
-  EXPECT_EQ(phrases.say(CueKind::menu_place, everything()), "dock 2");
+  EXPECT_EQ(phrases.say({CueKind::menu, About::menu_place}, everything()), "dock 2");
   Fillings task;
   task.place = PlaceName::task;
   EXPECT_EQ(phrases.say(CueKind::goal_chosen, task), "you are heading for the goal of the task");
-  EXPECT_THROW(static_cast<void>(phrases.say(CueKind::menu_place)), std::logic_error);
+  EXPECT_THROW(static_cast<void>(phrases.say({CueKind::menu, About::menu_place})),
+               std::logic_error);
 }
 
 TEST(Phrases, call_a_place_by_a_name_of_its_own_and_by_no_other_text) {
@@ -266,15 +265,18 @@ TEST(Phrases, call_a_place_by_a_name_of_its_own_and_by_no_other_text) {
     for (const WordingConfig& worded : all_wordings())
       for (const char* name : {"gate 4", "a234567890123456789a b23456789012345678b",
                                "a23456789012345678a b234567890123456789b"})
-        for (const CueKind kind : {CueKind::menu_place, CueKind::goal_chosen, CueKind::goal_sure}) {
+        for (const Content& content :
+             {Content(CueKind::menu, About::menu_place), Content(CueKind::goal_chosen),
+              Content(CueKind::menu, About::goal_sure)}) {
           Fillings fillings;
           fillings.place_name = name;
-          const std::string said = Phrases(language, worded).say(kind, fillings);
+          const std::string said = Phrases(language, worded).say(content, fillings);
           EXPECT_TRUE(names(said, name) && speakable(said)) << said;
         }
   Fillings fillings = everything();
   fillings.place_name = "<audio src='x'/>";
-  EXPECT_THROW((void)Phrases(kEnglish).say(CueKind::menu_place, fillings), std::logic_error);
+  EXPECT_THROW((void)Phrases(kEnglish).say({CueKind::menu, About::menu_place}, fillings),
+               std::logic_error);
 }
 
 TEST(Phrases, let_a_place_be_called_by_letters_digits_and_single_blanks) {
@@ -320,6 +322,17 @@ TEST(Phrases, refuse_a_file_that_lacks_a_key_and_name_it) {
   EXPECT_TRUE(names(no_phrase, "arrived") && names(no_phrase, "missing")) << no_phrase;
   const std::string no_word = refusal(replaced("  forklift: forklift\n", ""));
   EXPECT_TRUE(names(no_word, "words/forklift")) << no_word;
+}
+
+TEST(Phrases, stand_under_a_kind_for_all_that_it_may_be_about_but_what_has_one_of_its_own) {
+  const std::string near = "  near: \"{thing} {where}\"\n";
+  const TemporaryFile file(replaced(near, near + "  wall_near: \"mind the wall\"\n"));
+  const Phrases phrases(file.path());
+  EXPECT_EQ(phrases.say({CueKind::near, About::wall}, everything()), "mind the wall");
+  EXPECT_EQ(phrases.say({CueKind::near, About::shelf}, everything()), "pallet robot on your left");
+  EXPECT_TRUE(names(refusal(replaced(near, "  wall_near: \"mind the wall\"\n")), "shelf_near"));
+  // One that needs no direction has no other words.
+  EXPECT_TRUE(names(refusal(replaced("  start_distance:", "  # start_distance:")), "missing"));
 }
 
 TEST(Phrases, refuse_an_unknown_key_or_placeholder_with_its_line) {
@@ -368,7 +381,7 @@ TEST(Phrases, cannot_be_made_to_speak_anything_else) {
   for (const fs::path& language : {kEnglish, kSpanish})
     for (const WordingConfig& worded : all_wordings()) {
       const Phrases phrases(language, worded);
-      for (const CueKind kind : phrase_kinds())
+      for (const Content& content : navvi_types::contents())
         for (int hour = 1; hour <= 12; ++hour)
           for (int thing = static_cast<int>(ThingClass::shelf);
                thing <= static_cast<int>(ThingClass::other); ++thing)
@@ -383,7 +396,7 @@ TEST(Phrases, cannot_be_made_to_speak_anything_else) {
                                         static_cast<SettingName>(hour),
                                         std::nullopt,
                                         "a23456789_123456789-1234"};
-                ASSERT_TRUE(speakable(phrases.say(kind, fillings))) << to_string(kind);
+                ASSERT_TRUE(speakable(phrases.say(content, fillings))) << to_string(content);
               }
     }
 }

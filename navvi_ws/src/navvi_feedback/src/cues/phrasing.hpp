@@ -28,9 +28,9 @@ class Phrasing {
                                          const Observation& now, double time);
   /// As it stands in the picture: the way in few words, all else as it is said.
   [[nodiscard]] std::string shown(const Utterance& utterance) const;
-  /// One of this kind would not be said now.
-  [[nodiscard]] bool too_soon(CueKind kind, double time) const {
-    return last_said_.too_soon(kind, time);
+  /// It would not be said now.
+  [[nodiscard]] bool too_soon(const Content& content, double time) const {
+    return last_said_.too_soon(content, time);
   }
   /// s, when "straight ahead" was last said
   [[nodiscard]] double straight_said() const { return straight_said_; }

@@ -79,13 +79,12 @@ Utterances RouteCues::go_on(const Observation& now, double time) {
   } else if (is_new_goal(guidance)) {
     // That the goal is not seen yet is told by itself, as there may be no room for it here.
     if (!guidance.ends_short)
-      way->also = {
-          goal_words(CueKind::goal_info, CueKind::goal_info_distance, now, bearing_.rounding())};
+      way->also = {goal_words(CueKind::goal_info, now, bearing_.rounding())};
     unseen_ = {};
     goal_ = guidance.goal;
     leg_.begin(guidance);
   } else if (leg_.routes.news(guidance) && way->kind != CueKind::slight) {
-    way->kind = route_kind(look, leg_, CueKind::rerouted, CueKind::rerouted_blocked);
+    reroute(*way, look, leg_);
   } else if (const auto turn = turn_within_reach(look); turn && way->fillings.hour == 12) {
     way = announce(CueKind::straight_then, *way, *turn, look, leg_);
   }

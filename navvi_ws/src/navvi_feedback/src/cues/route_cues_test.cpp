@@ -25,7 +25,7 @@ TEST(RouteCues, say_the_way_to_a_new_goal_and_then_where_that_is) {
 TEST(RouteCues, introduce_a_goal_whose_bearing_is_unknown_by_its_distance) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
-  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::direction, CueKind::start_distance}));
+  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::direction, {CueKind::start, About::distance}}));
 }
 
 TEST(RouteCues, introduce_a_goal_that_is_not_seen_as_such_without_the_length_of_the_path) {
@@ -215,7 +215,7 @@ TEST(RouteCues, say_the_direction_when_the_path_is_back_without_a_new_introducti
   drive.cues.pause(false);
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight});
   drive.cues.pause(true);
-  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::straight, CueKind::start_distance}));
+  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::straight, {CueKind::start, About::distance}}));
 }
 
 /// A person with the stick: reacts to words after a second, turns by an hour's angle with an error,

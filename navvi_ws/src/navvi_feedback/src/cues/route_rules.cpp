@@ -71,7 +71,7 @@ Utterances tell_way(const Look& look, Leg& leg) {
     return {announce(CueKind::straight_then, way, *turn, look, leg)};
   // The route changed while the person waited.
   if (!leg.said.hour && leg.routes.news(look.guidance()) && way.kind != CueKind::slight)
-    way.kind = route_kind(look, leg, CueKind::rerouted, CueKind::rerouted_blocked);
+    reroute(way, look, leg);
   leg.heard(look.hour(), look.time);
   return {way};
 }
@@ -105,11 +105,16 @@ Utterance announce(CueKind kind, Utterance way, int hour, const Look& look, Leg&
   return way;
 }
 
-CueKind route_kind(const Look& look, const Leg& leg, CueKind told, CueKind blocked) {
+bool is_blocked(const Look& look, const Leg& leg) {
   const Guidance::Replan reason = look.guidance().reroute_reason;
   const bool closed =
       reason == Guidance::Replan::path_carved || reason == Guidance::Replan::waypoint_blocked;
-  return leg.routes.news(look.guidance()) && closed ? blocked : told;
+  return leg.routes.news(look.guidance()) && closed;
+}
+
+void reroute(Utterance& way, const Look& look, const Leg& leg) {
+  way.kind = CueKind::rerouted;
+  if (is_blocked(look, leg)) way.about = About::blocked;
 }
 
 std::optional<bool> direction_due(const Look& look, const Leg& leg) {

@@ -55,9 +55,10 @@ using Rule = Told (*)(const Look& look, Leg& leg);
 [[nodiscard]] Utterance make_room_now(const Look& look, Leg& leg);
 /// The turn is announced by words of this kind. \param hour  of the turn
 [[nodiscard]] Utterance announce(CueKind kind, Utterance way, int hour, const Look& look, Leg& leg);
-/// \param way  the direction \param told, blocked  the kind if another route is news, and if
-/// something blocks the old one
-[[nodiscard]] CueKind route_kind(const Look& look, const Leg& leg, CueKind told, CueKind blocked);
+/// Another route is news, and something blocks the old one.
+[[nodiscard]] bool is_blocked(const Look& look, const Leg& leg);
+/// Makes of the direction that of another route.
+void reroute(Utterance& way, const Look& look, const Leg& leg);
 /// Whether to say the direction, where both strategies agree; nullopt: they do not.
 [[nodiscard]] std::optional<bool> direction_due(const Look& look, const Leg& leg);
 /// The hour of the turn at the next corner, if it is near enough to be announced.

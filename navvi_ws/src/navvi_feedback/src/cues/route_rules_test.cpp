@@ -15,7 +15,7 @@ TEST(RouteRules, announce_a_turn_once_ahead_and_once_when_the_corner_is_reached)
   Kinds said;
   for (double distance = 12.0; distance > 1.0; distance -= kTick) {
     drive.now.guidance->waypoint_distance = distance;
-    for (const CueKind kind : drive.pass(kTick)) {
+    for (const Content& kind : drive.pass(kTick)) {
       if (kind == CueKind::turn_ahead) {
         EXPECT_LE(distance, 6.0);
         EXPECT_GT(distance, 4.0);
@@ -99,7 +99,7 @@ TEST(RouteRules, say_that_the_old_way_is_blocked_once_for_each_reroute) {
   drive.now.guidance->reroutes = 1;
   drive.now.guidance->reroute_reason = Guidance::Replan::path_carved;
   lead_to(0.0, 150.0);
-  EXPECT_EQ(drive.pass(1.0), Kinds{CueKind::rerouted_blocked});
+  EXPECT_EQ(drive.pass(1.0), (Kinds{{CueKind::rerouted, About::blocked}}));
   lead_to(9.0, 60.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }

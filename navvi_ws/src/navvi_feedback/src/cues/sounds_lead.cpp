@@ -27,7 +27,7 @@ Told tell_route(const Look& look, Leg& leg) {
   leg.news = Leg::News::none;
   if (!leg.routes.news(look.guidance())) return Utterances{};
   Utterance way = *direction(look.guidance(), look.bearing);
-  way.kind = route_kind(look, leg, CueKind::new_route, CueKind::way_blocked);
+  way.kind = is_blocked(look, leg) ? CueKind::way_blocked : CueKind::new_route;
   leg.routes.tell(look.guidance().reroutes);
   return Utterances{way};
 }

@@ -5,23 +5,10 @@
 namespace navvi_feedback::cues {
 namespace {
 
-CueKind refusal_of(Guidance::Refusal refusal) {
-  switch (refusal) {
-    case Guidance::Refusal::none:  // unexplained
-    case Guidance::Refusal::not_finite:
-      return CueKind::goal_refused_not_finite;
-    case Guidance::Refusal::unknown_frame:
-      return CueKind::goal_refused_unknown_frame;
-    case Guidance::Refusal::inside_obstacle:
-      return CueKind::goal_refused_inside_obstacle;
-    case Guidance::Refusal::off_the_map:
-      return CueKind::goal_refused_off_the_map;
-    case Guidance::Refusal::unreachable:
-      return CueKind::goal_refused_unreachable;
-    case Guidance::Refusal::not_seen:
-      return CueKind::goal_refused_not_seen;
-  }
-  return CueKind::goal_refused_not_finite;
+/// The reason of a refusal, or the state, where these have the words of what is said.
+template <typename Reason>
+Content because(CueKind kind, Reason reason) {
+  return {kind, navvi_types::from_word<About>(to_string(reason)).value()};
 }
 
 /// s, before a word to stop is followed by the word to wait.
@@ -31,13 +18,14 @@ constexpr double kWhy = 1.0;
 /// s, from one word to the next on what a stick that is pushed waits for.
 constexpr double kHeldBack = 2.5;
 
-bool said_once(CueKind problem) {
-  return problem == CueKind::arrived || problem == CueKind::welcome || is_refusal(problem);
+bool said_once(const std::optional<Content>& problem) {
+  return problem == CueKind::arrived || problem == CueKind::welcome ||
+         problem == CueKind::goal_refused;
 }
 
 }  // namespace
 
-std::optional<CueKind> problem_of(const Guidance& guidance) {
+std::optional<Content> problem_of(const Guidance& guidance) {
   switch (guidance.state) {
     case Guidance::State::no_goal:
       return CueKind::welcome;
@@ -45,26 +33,25 @@ std::optional<CueKind> problem_of(const Guidance& guidance) {
     case Guidance::State::make_room:
       return std::nullopt;
     case Guidance::State::goal_refused:
-      return refusal_of(guidance.refusal);
+      if (guidance.refusal != Guidance::Refusal::none)
+        return because(CueKind::goal_refused, guidance.refusal);
+      return Content(CueKind::goal_refused, About::not_finite);
     case Guidance::State::arrived:
       return CueKind::arrived;
     case Guidance::State::blocked:
       return CueKind::blocked;
-    case Guidance::State::no_route:
-      return CueKind::no_route;
     case Guidance::State::off_mesh:
       return CueKind::off_mesh;
+    case Guidance::State::no_route:
     case Guidance::State::no_map:
-      return CueKind::no_map;
     case Guidance::State::map_stale:
-      return CueKind::map_stale;
     case Guidance::State::pose_stale:
-      return CueKind::pose_stale;
+      return because(CueKind::no_way, guidance.state);
   }
   return std::nullopt;
 }
 
-Utterance problem_words(CueKind problem, const Observation& now) {
+Utterance problem_words(const Content& problem, const Observation& now) {
   Utterance told{problem};
   if (now.guidance) told.fillings.thing = now.guidance->blocked_by.value_or(ThingClass::other);
   return told;
@@ -90,33 +77,32 @@ Utterances StateCues::update(const Tick& tick, std::optional<double> halted,
   return told;
 }
 
-void StateCues::lost(CueKind kind, double time) {
-  if (kind != problem_) return;
+void StateCues::lost(const Content& content, double time) {
+  if (problem_ != content) return;
   lost_ = time;
   arrival_said_ = false;
 }
 
-bool StateCues::goal_gone() const {
-  return problem_ == CueKind::arrived || problem_ == CueKind::welcome || is_refusal(problem_);
-}
+bool StateCues::goal_gone() const { return said_once(problem_); }
 
-std::optional<CueKind> StateCues::judge(const Tick& tick) const {
-  std::optional<CueKind> problem;
+std::optional<Content> StateCues::judge(const Tick& tick) const {
+  std::optional<Content> problem;
   if (tick.links.guidance == Link::lost)
     problem = CueKind::guidance_lost;
   else if (tick.now.guidance)
     problem = problem_of(*tick.now.guidance);
   const bool idle = !problem || problem == CueKind::welcome || problem == CueKind::arrived;
-  const std::optional<CueKind> wanted = awaited(tick.now);
+  const std::optional<Content> wanted = awaited(tick.now);
   return idle && wanted ? wanted : problem;
 }
 
 void StateCues::observe(const Tick& tick) {
   if (tick.follows) arrival_said_ = false;
   led_ = led_ || tick.follows;
-  const std::optional<CueKind> problem = judge(tick);
+  const std::optional<Content> problem = judge(tick);
   const std::optional<Guidance>& guidance = tick.now.guidance;
-  const bool other_goal = is_refusal(problem) && guidance && (guidance->goal - goal_).norm() > 0.0;
+  const bool other_goal =
+      problem == CueKind::goal_refused && guidance && (guidance->goal - goal_).norm() > 0.0;
   if (problem == problem_ && !other_goal) return;
   problem_ = problem;
   since_ = tick.time;
@@ -132,12 +118,13 @@ bool StateCues::due(const Tick& tick, std::optional<double> halted) const {
   if (lost_) return tick.time - *lost_ >= kTryAgain;
   const bool pushed = awaited_ && tick.now.stick_held_unarmed;
   const double pause = pushed ? kHeldBack : config_.kProblemRepeat;
-  return !said_ || (!said_once(*problem_) && tick.time - *said_ >= pause);
+  return !said_ || (!said_once(problem_) && tick.time - *said_ >= pause);
 }
 
 /// s, for which it must last.
 double StateCues::hold(const Tick& tick, std::optional<double> halted) const {
-  if (problem_ == CueKind::arrived || problem_ == CueKind::guidance_lost || is_refusal(problem_))
+  if (problem_ == CueKind::arrived || problem_ == CueKind::guidance_lost ||
+      problem_ == CueKind::goal_refused)
     return 0.0;
   // The end of what leads has stopped the person; the words are why.
   if (problem_ == CueKind::blocked && lasts(tick.now.lead)) return kWhy;
@@ -149,7 +136,8 @@ double StateCues::hold(const Tick& tick, std::optional<double> halted) const {
     if (near) return 0.0;
   }
   const bool starting = problem_ == CueKind::welcome ||
-                        (!led_ && (problem_ == CueKind::no_map || problem_ == CueKind::pose_stale));
+                        (!led_ && (problem_ == Content{CueKind::no_way, About::no_map} ||
+                                   problem_ == Content{CueKind::no_way, About::pose_stale}));
   return starting ? config_.kStarting : config_.state_hold;
 }
 

@@ -11,15 +11,10 @@
 namespace navvi_feedback::cues {
 
 /// Why the guidance does not lead anywhere; nullopt if it does.
-[[nodiscard]] std::optional<CueKind> problem_of(const Guidance& guidance);
+[[nodiscard]] std::optional<Content> problem_of(const Guidance& guidance);
 
 /// That, with the thing that is in the way.
-[[nodiscard]] Utterance problem_words(CueKind problem, const Observation& now);
-
-/// A goal was refused, for whatever reason.
-[[nodiscard]] inline bool is_refusal(std::optional<CueKind> problem) {
-  return problem && family_of(*problem) == Family::refusal;
-}
+[[nodiscard]] Utterance problem_words(const Content& problem, const Observation& now);
 
 /// Tells why the guidance does not lead, or what a trial waits for, once that has lasted, and again
 /// while it lasts; and that a trial begins.
@@ -28,26 +23,26 @@ class StateCues {
   explicit StateCues(const CuePolicyConfig& config) : config_(config) {}
 
   /// \param halted  s, when the person was told to stop, and waits since; nullopt: they do not wait
-  /// \param phrasing  knows which kinds were said too short a time ago
+  /// \param phrasing  knows what was said too short a time ago
   [[nodiscard]] Utterances update(const Tick& tick, std::optional<double> halted,
                                   const Phrasing& phrasing);
-  /// Words of the kind were not heard: if they are true still, they are said again a little later.
-  void lost(CueKind kind, double time);
+  /// These words were not heard: if they are true still, they are said again a little later.
+  void lost(const Content& content, double time);
 
   /// As of the last update. \return nullopt: the guidance leads, or nothing is known of it
-  [[nodiscard]] std::optional<CueKind> problem() const { return problem_; }
+  [[nodiscard]] std::optional<Content> problem() const { return problem_; }
   /// There is nowhere to drive to.
   [[nodiscard]] bool goal_gone() const;
 
  private:
-  [[nodiscard]] std::optional<CueKind> judge(const Tick& tick) const;
+  [[nodiscard]] std::optional<Content> judge(const Tick& tick) const;
   void observe(const Tick& tick);
   [[nodiscard]] bool due(const Tick& tick, std::optional<double> halted) const;
   [[nodiscard]] double hold(const Tick& tick, std::optional<double> halted) const;
 
   CuePolicyConfig config_;
   bool awaited_ = false;                            ///< a trial waits for the person
-  std::optional<CueKind> problem_;                  ///< why the guidance does not lead
+  std::optional<Content> problem_;                  ///< why the guidance does not lead
   Eigen::Vector2d goal_ = Eigen::Vector2d::Zero();  ///< m, in map, when that began
   double since_ = 0.0;                              ///< s
   std::optional<double> said_;                      ///< s

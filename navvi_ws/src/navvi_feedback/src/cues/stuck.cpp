@@ -63,7 +63,7 @@ Utterance boxed_in(const std::vector<NearThing>& nearby) {
   for (Utterance& side : told.also) {
     // Few words alone are sooner over.
     side.from.reset();
-    if (side.kind == CueKind::around) side.kind = CueKind::around_side;
+    if (side.kind == CueKind::around) side.about = About::side;
   }
   return told;
 }

@@ -35,11 +35,11 @@ struct Tick {
 };
 
 /// The act that a trial awaits before it begins; nullopt if none.
-[[nodiscard]] inline std::optional<CueKind> awaited(const Observation& now) {
+[[nodiscard]] inline std::optional<Content> awaited(const Observation& now) {
   if (now.trial == TrialState::State::choose_goal) return CueKind::choose_goal;
   if (now.trial != TrialState::State::ready) return std::nullopt;
   if (now.side_asked) return CueKind::which_side;
-  return now.devices.keyboard ? CueKind::press_enter : CueKind::press_start;
+  return Content{CueKind::press, now.devices.keyboard ? About::enter : About::start};
 }
 
 }  // namespace navvi_feedback::cues

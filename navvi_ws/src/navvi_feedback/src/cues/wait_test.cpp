@@ -170,7 +170,7 @@ TEST_F(WaitTest, is_said_again_while_it_lasts_if_other_words_left_it_no_room) {
 }
 
 TEST_F(WaitTest, is_said_again_if_it_found_no_room_in_the_moment_it_was_due) {
-  const CueEvent due{1, CueStage::queued, last_.kind, last_.text, last_.priority};
+  const CueEvent due{1, CueStage::queued, Content(last_), last_.text, last_.priority};
   CueEvent gone = due;
   gone.stage = CueStage::dropped;
   CueEvent later = due;

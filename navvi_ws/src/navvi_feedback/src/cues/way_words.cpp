@@ -29,22 +29,22 @@ Utterance next_turn(const Guidance& guidance, Rounding rounding) {
 
 Utterance start_words(const Observation& now, Rounding rounding) {
   if (now.guidance->ends_short) return {CueKind::toward_goal};
-  Utterance start = goal_words(CueKind::start, CueKind::start_distance, now, rounding);
+  Utterance start = goal_words(CueKind::start, now, rounding);
   if (now.goal_angle)
     start.fillings.side = side_of({std::cos(*now.goal_angle), -std::sin(*now.goal_angle)});
   return start;
 }
 
-Utterance goal_words(CueKind kind, CueKind without_hour, const Observation& now,
-                     Rounding rounding) {
-  Utterance goal;
+Utterance goal_words(CueKind kind, const Observation& now, Rounding rounding) {
+  Utterance goal{kind};
   if (now.goal_angle) goal.fillings.hour = clock_hour(*now.goal_angle, rounding);
   // The path ends before the goal: how long it is tells nothing of that.
   const bool beyond = now.guidance->ends_short;
   goal.fillings.distance = beyond ? now.goal_straight : std::max(0.0, now.guidance->goal_distance);
-  goal.kind = goal.fillings.hour ? (beyond ? CueKind::where_goal : kind)
-              : beyond           ? CueKind::toward_goal
-                                 : without_hour;
+  if (beyond)
+    goal.kind = goal.fillings.hour ? CueKind::where_goal : CueKind::toward_goal;
+  else if (!goal.fillings.hour)
+    goal.about = About::distance;
   return goal;
 }
 

@@ -17,8 +17,7 @@ namespace navvi_feedback::cues {
 /// How far the goal is, and where from the nose, as goal_words() has both.
 [[nodiscard]] Utterance start_words(const Observation& now, Rounding rounding);
 
-/// Distance and, if it is known, hour of the goal. \param without_hour  the kind if it is not
-[[nodiscard]] Utterance goal_words(CueKind kind, CueKind without_hour, const Observation& now,
-                                   Rounding rounding);
+/// Distance and, if it is known, hour of the goal.
+[[nodiscard]] Utterance goal_words(CueKind kind, const Observation& now, Rounding rounding);
 
 }  // namespace navvi_feedback::cues

@@ -59,7 +59,7 @@ Told watch_stray(const Look& look, Leg& leg) {
 Told tell_route(const Look& look, Leg& leg) {
   if (leg.news != Leg::News::other_route || look.hour() == leg.said.hour) return std::nullopt;
   Utterance way = *direction(look.guidance(), look.bearing);
-  way.kind = route_kind(look, leg, CueKind::rerouted, CueKind::rerouted_blocked);
+  reroute(way, look, leg);
   leg.heard(look.hour(), look.time);
   return Utterances{way};
 }

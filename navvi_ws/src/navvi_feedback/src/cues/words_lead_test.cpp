@@ -56,7 +56,7 @@ TEST(WordsLead, leave_out_the_hours_that_a_turning_robot_passes_and_say_when_to_
   while (degrees > 0.0) {
     degrees -= kTick / M_PI * 180.0;
     drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
-    for (const CueKind kind : drive.pass(kTick)) {
+    for (const Content& kind : drive.pass(kTick)) {
       said.push_back(kind);
       angle_when_told = degrees;
     }
@@ -128,7 +128,7 @@ TEST(WordsLead, do_not_waver_between_the_hours_ahead_just_before_the_way_point) 
   for (int i = 0; i < 10; ++i) {
     drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle =
         rad(i % 2 == 0 ? -40.0 : 0.0);
-    for (const CueKind kind : drive.pass(2.0)) said.push_back(kind);
+    for (const Content& kind : drive.pass(2.0)) said.push_back(kind);
   }
   EXPECT_EQ(said, Kinds{});
   EXPECT_TRUE(drive.cues.ask(*drive.now.guidance, drive.time)) << "who asks is told";

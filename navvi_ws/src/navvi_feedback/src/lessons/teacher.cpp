@@ -50,16 +50,17 @@ void Teacher::update(const Observation& seen, double time) {
 }
 
 void Teacher::join(std::vector<cues::Cue>& cues) const {
-  static const std::set<CueKind> needed = {
-      CueKind::arrived,       CueKind::stuck,     CueKind::stuck_unknown, CueKind::back_away,
-      CueKind::release_stick, CueKind::pad_back,  CueKind::keyboard_back, CueKind::audio_back,
-      CueKind::picture_back,
-      CueKind::settings_of,   CueKind::no_rumble, CueKind::second_pad,    CueKind::pad_firmware};
+  static const std::set<Content> needed = {
+      CueKind::arrived, CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away,
+      CueKind::release_stick, CueKind::pad_back, {CueKind::back, About::keyboard},
+      {CueKind::back, About::audio}, {CueKind::back, About::picture},
+      {CueKind::settings, About::of}, {CueKind::notice, About::no_rumble},
+      {CueKind::notice, About::second_pad}, {CueKind::notice, About::pad_firmware}};
   if (speaks())
     cues.erase(std::remove_if(cues.begin(), cues.end(),
                               [](const cues::Cue& cue) {
                                 return !cue.asked && cue.priority != Priority::important &&
-                                       needed.count(cue.kind) == 0;
+                                       needed.count(cue) == 0;
                               }),
                cues.end());
   cues.insert(cues.end(), taught_.cues.begin(), taught_.cues.end());

@@ -10,10 +10,12 @@ constexpr double kSameGoal = 0.05;  // m
 constexpr double kPatience = 20.0;  // s
 constexpr double kTwice = 1.5;      // s, within which a second press of start means the first
 
+Content entry(About of) { return {CueKind::menu, of}; }
+
 }  // namespace
 
-cues::Utterance Menu::Destination::say(CueKind kind) const {
-  cues::Utterance told{kind};
+cues::Utterance Menu::Destination::say(const Content& content) const {
+  cues::Utterance told{content};
   told.fillings.place = name;
   told.fillings.number = number;
   told.fillings.place_name = called;
@@ -35,7 +37,7 @@ std::optional<NamedPlace> Menu::remember(const Eigen::Vector2d& at, const cues::
   const auto taken = [&](const NamedPlace& place) { return sound_alike(place.name, name); };
   do {
     ++fillings.number;
-    name = phrases.say(CueKind::menu_place, fillings);
+    name = phrases.say(entry(About::menu_place), fillings);
   } while (std::any_of(places_.begin(), places_.end(), taken));
   places_.push_back({name, at});
   return places_.back();
@@ -60,34 +62,35 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
   switch (level.list) {
     case List::top:
       if (trial_ == TrialState::State::ready)
-        entries.push_back({{CueKind::menu_begin}, {}, {}, TrialRequest::Kind::begin});
-      if (!destinations().empty()) entries.push_back({{CueKind::menu_goals}, List::goals});
-      if (!values_.empty()) entries.push_back({{CueKind::menu_settings}, List::settings});
+        entries.push_back({{entry(About::menu_begin)}, {}, {}, TrialRequest::Kind::begin});
+      if (!destinations().empty()) entries.push_back({{entry(About::menu_goals)}, List::goals});
+      if (!values_.empty()) entries.push_back({{entry(About::menu_settings)}, List::settings});
       if (trial_ != TrialState::State::preparing && trial_ != TrialState::State::running)
-        entries.push_back({{CueKind::menu_glossary}, {}, {}, {}, nullptr, true});
-      if (trial_ == TrialState::State::running) entries.push_back({{CueKind::menu_end}, List::end});
-      if (!locked_) entries.push_back({{CueKind::menu_remember}, {}, {}, {}, nullptr, false, true});
-      if (entries.empty()) entries.push_back({{CueKind::menu_empty}});
+        entries.push_back({{entry(About::menu_glossary)}, {}, {}, {}, nullptr, true});
+      if (trial_ == TrialState::State::running)
+        entries.push_back({{entry(About::menu_end)}, List::end});
+      if (!locked_)
+        entries.push_back({{entry(About::menu_remember)}, {}, {}, {}, nullptr, false, true});
+      if (entries.empty()) entries.push_back({{entry(About::menu_empty)}});
       break;
     case List::goals:
       for (const Destination& place : destinations())
-        entries.push_back({place.say(CueKind::menu_place), {}, place});
+        entries.push_back({place.say(entry(About::menu_place)), {}, place});
       break;
     case List::goal:
-      entries.push_back({level.goal->say(CueKind::goal_sure), {}, level.goal});
+      entries.push_back({level.goal->say(entry(About::goal_sure)), {}, level.goal});
       break;
     case List::settings:
       for (const Setting& setting : settings())
         if (const auto value = values_.find(setting.key); value != values_.end())
           entries.push_back(
-              {setting.say(CueKind::setting, value->second), List::setting, {}, {}, &setting});
+              {setting.say(About::setting, value->second), List::setting, {}, {}, &setting});
       break;
     case List::setting:
-      entries.push_back(
-          {level.setting->say(CueKind::setting_open, values_.at(level.setting->key))});
+      entries.push_back({level.setting->say(About::setting_open, values_.at(level.setting->key))});
       break;
     case List::end:
-      entries.push_back({{CueKind::menu_end_sure}, {}, {}, TrialRequest::Kind::end});
+      entries.push_back({{entry(About::menu_end_sure)}, {}, {}, TrialRequest::Kind::end});
       break;
   }
   return entries;
@@ -105,7 +108,7 @@ std::optional<std::size_t> Menu::place_of_told(const std::vector<Entry>& list) c
 Menu::Step Menu::tell() {
   if (path_.empty()) return {cues::Utterance{CueKind::menu_closed}};
   const std::vector<Entry> list = entries(path_.back());
-  if (list.empty()) return {cues::Utterance{CueKind::menu_empty}};
+  if (list.empty()) return {cues::Utterance{entry(About::menu_empty)}};
   path_.back().told = list[place_of_told(list).value_or(0)];
   return {path_.back().told->label};
 }
@@ -137,7 +140,7 @@ Menu::Step Menu::choose(const Entry& entry) {
 Menu::Step Menu::change(const Setting& setting, bool up) {
   std::string& value = values_.at(setting.key);
   value = setting.step(value, up);
-  Step step{setting.say(CueKind::setting_changed, value)};
+  Step step{setting.say(About::setting_changed, value)};
   step.change = setting.key + (":=" + value);
   if (value == "false") return step;
   step.felt = setting.felt;

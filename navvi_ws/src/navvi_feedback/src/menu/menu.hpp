@@ -66,7 +66,7 @@ class Menu {
     Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map
     std::string called = {};                       ///< instead of name and number; empty: by these
 
-    [[nodiscard]] cues::Utterance say(CueKind kind) const;
+    [[nodiscard]] cues::Utterance say(const Content& content) const;
     [[nodiscard]] bool operator==(const Destination& other) const {
       return name == other.name && number == other.number && at == other.at &&
              called == other.called;
@@ -84,7 +84,7 @@ class Menu {
 
     /// It does the same, whatever value a setting has.
     [[nodiscard]] bool same(const Entry& other) const {
-      return label.kind == other.label.kind && goal == other.goal && setting == other.setting;
+      return label.about == other.label.about && goal == other.goal && setting == other.setting;
     }
   };
   /// A list, and what was last spoken of it: that is what a press means, even if the list has

@@ -27,8 +27,7 @@ class MenuTest : public testing::Test {
     const Menu::Step step = press(buttons);
     if (!step.told) return "";
     const int number = step.told->fillings.number;
-    return std::string(to_string(step.told->kind)) +
-           (number > 0 ? " " + std::to_string(number) : "");
+    return to_string(Content(*step.told)) + (number > 0 ? " " + std::to_string(number) : "");
   }
 
   void trial(State state) { menu_.take(TrialState{state}); }
@@ -93,7 +92,7 @@ TEST_F(MenuTest, changes_the_goal_of_a_running_trial_only_when_asked_twice) {
   press({Button::next, Button::choose, Button::next});
   Menu::Step step = press({Button::choose});
   EXPECT_FALSE(step.goal);
-  EXPECT_EQ(step.told.value().kind, CueKind::goal_sure);
+  EXPECT_EQ(step.told.value().about, About::goal_sure);
   EXPECT_EQ(step.told.value().fillings.number, 1);
   EXPECT_EQ(heard({Button::back}), "menu_place 1") << "not this one";
   EXPECT_EQ(heard({Button::choose, Button::next}), "goal_sure 1");
@@ -146,7 +145,7 @@ TEST_F(MenuTest, begins_a_trial_and_ends_it_only_when_asked_twice) {
   EXPECT_EQ(heard({Button::next, Button::next}), "menu_end");
   const Menu::Step asked = press({Button::choose});
   EXPECT_FALSE(asked.request);
-  EXPECT_EQ(asked.told->kind, CueKind::menu_end_sure);
+  EXPECT_EQ(asked.told->about, About::menu_end_sure);
   EXPECT_EQ(press({Button::choose}).request, TrialRequest::Kind::end);
 }
 
@@ -189,7 +188,7 @@ TEST_F(MenuTest, chooses_nothing_where_what_was_told_is_gone) {
   trial(State::running);
   const Menu::Step step = press({Button::choose});
   EXPECT_FALSE(step.goal || step.request);
-  EXPECT_EQ(step.told->kind, CueKind::menu_goals) << "the first that there is now";
+  EXPECT_EQ(step.told->about, About::menu_goals) << "the first that there is now";
   EXPECT_EQ(heard({Button::choose}), "menu_place");
 }
 
@@ -203,13 +202,13 @@ TEST_F(MenuTest, offers_the_places_of_a_file_by_their_names) {
   Menu menu;  // as on a robot, of which no scenario is known
   menu.take(std::vector<NamedPlace>{{"packing table", {1.5, -2.0}}, {"gate 4", {-3.0, 4.0}}});
   menu.take(TrialState{State::running});
-  EXPECT_EQ(menu.press(Button::next).told.value().kind, CueKind::menu_goals);
+  EXPECT_EQ(menu.press(Button::next).told.value().about, About::menu_goals);
   Menu::Step step = menu.press(Button::choose);
-  EXPECT_EQ(step.told.value().kind, CueKind::menu_place);
+  EXPECT_EQ(step.told.value().about, About::menu_place);
   EXPECT_EQ(step.told.value().fillings.place_name, "packing table");
   EXPECT_EQ(menu.press(Button::next).told.value().fillings.place_name, "gate 4");
   step = menu.press(Button::choose);
-  EXPECT_EQ(step.told.value().kind, CueKind::goal_sure);
+  EXPECT_EQ(step.told.value().about, About::goal_sure);
   EXPECT_EQ(step.told.value().fillings.place_name, "gate 4");
   step = menu.press(Button::choose);
   EXPECT_EQ(step.goal.value(), Eigen::Vector2d(-3.0, 4.0));
@@ -245,8 +244,8 @@ TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {
   Menu menu;
   menu.lock(true);
   menu.take(TrialState{State::preparing});
-  EXPECT_EQ(menu.press(Button::next).told.value().kind, CueKind::menu_empty);
-  EXPECT_EQ(menu.press(Button::choose).told.value().kind, CueKind::menu_empty);
+  EXPECT_EQ(menu.press(Button::next).told.value().about, About::menu_empty);
+  EXPECT_EQ(menu.press(Button::choose).told.value().about, About::menu_empty);
   EXPECT_EQ(menu.press(Button::back).told.value().kind, CueKind::menu_closed);
 }
 
@@ -275,7 +274,7 @@ TEST_F(MenuTest, changes_a_setting_step_by_step) {
   EXPECT_EQ(heard({Button::choose}), "setting_open 230");
   Menu::Step step = press({Button::previous});
   EXPECT_EQ(step.change, "speaker/rate:=240");
-  EXPECT_EQ(step.told.value().kind, CueKind::setting_changed);
+  EXPECT_EQ(step.told.value().about, About::setting_changed);
   EXPECT_EQ(step.told.value().fillings.number, 240);
   EXPECT_EQ(press({Button::next, Button::next}).change, "speaker/rate:=200");
   EXPECT_EQ(heard({Button::back}), "setting 200");
@@ -284,7 +283,7 @@ TEST_F(MenuTest, changes_a_setting_step_by_step) {
   EXPECT_EQ(step.change, "lead:=words");
   EXPECT_EQ(step.told.value().fillings.value, cues::SettingValue::words);
   EXPECT_EQ(press({Button::next}).change, "lead:=words") << "the last of its values";
-  EXPECT_EQ(press({Button::choose}).told.value().kind, CueKind::setting) << "done";
+  EXPECT_EQ(press({Button::choose}).told.value().about, About::setting) << "done";
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ std::string Setting::step(const std::string& value, bool up) const {
   return above == values.begin() ? values.front() : *std::prev(above);
 }
 
-cues::Utterance Setting::say(CueKind kind, const std::string& value) const {
-  cues::Utterance told{kind};
+cues::Utterance Setting::say(About entry, const std::string& value) const {
+  cues::Utterance told{{CueKind::menu, entry}};
   told.fillings.setting = name;
   told.fillings.value = navvi_types::from_word<cues::SettingValue>(value);
   if (value == "false") told.fillings.value = cues::SettingValue::off;

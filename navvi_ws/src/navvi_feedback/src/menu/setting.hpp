@@ -23,7 +23,7 @@ struct Setting {
   /// \return the next of `values`, up or down; at the end the last
   [[nodiscard]] std::string step(const std::string& value, bool up) const;
   /// How it is said. \param value  as the parameter has it
-  [[nodiscard]] cues::Utterance say(CueKind kind, const std::string& value) const;
+  [[nodiscard]] cues::Utterance say(About entry, const std::string& value) const;
 };
 
 /// All that can be changed, in the order of the menu. No safety phrase and no pattern of the motors

@@ -28,14 +28,15 @@ TEST(Setting, each_value_can_be_said) {
     const cues::Phrases phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/" + language +
                                 ".yaml");
     for (const Setting& setting : settings())
-      for (const std::string& value : setting.values)
-        EXPECT_TRUE(cues::speakable(phrases.say(
-            CueKind::setting_open, setting.say(CueKind::setting_open, value).fillings)));
+      for (const std::string& value : setting.values) {
+        const cues::Utterance told = setting.say(About::setting_open, value);
+        EXPECT_TRUE(cues::speakable(phrases.say(told, told.fillings)));
+      }
   }
   const cues::Phrases english(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml");
   const auto said = [&](std::size_t setting, const char* value) {
-    return english.say(CueKind::setting_changed,
-                       settings()[setting].say(CueKind::setting_changed, value).fillings);
+    const cues::Utterance told = settings()[setting].say(About::setting_changed, value);
+    return english.say(told, told.fillings);
   };
   EXPECT_EQ(said(0, "240"), "speech rate 240");
   EXPECT_EQ(said(2, "0.7"), "strength of vibration 70 percent");

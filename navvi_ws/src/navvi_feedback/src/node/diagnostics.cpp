@@ -151,13 +151,13 @@ DiagnosticStatus latency_status(const devices::Latencies& latencies,
   return result;
 }
 
-std::vector<CueKind> notices_of(const devices::Gamepad::Status& pad) {
-  std::vector<CueKind> kinds;
-  if (pad.connected && !pad.has_rumble) kinds.push_back(CueKind::no_rumble);
+std::vector<Content> notices_of(const devices::Gamepad::Status& pad) {
+  std::vector<Content> notices;
+  if (pad.connected && !pad.has_rumble) notices.emplace_back(CueKind::notice, About::no_rumble);
   if (pad.connected && pad.has_rumble && pad.jolting_firmware)
-    kinds.push_back(CueKind::pad_firmware);
-  if (pad.others > 0) kinds.push_back(CueKind::second_pad);
-  return kinds;
+    notices.emplace_back(CueKind::notice, About::pad_firmware);
+  if (pad.others > 0) notices.emplace_back(CueKind::notice, About::second_pad);
+  return notices;
 }
 
 }  // namespace navvi_feedback::node

@@ -37,6 +37,6 @@ namespace navvi_feedback::node {
 [[nodiscard]] diagnostic_msgs::DiagnosticStatus beat_status(const Beat& beat);
 
 /// What the person is to be told of the pad, as kinds of cues.
-[[nodiscard]] std::vector<CueKind> notices_of(const devices::Gamepad::Status& pad);
+[[nodiscard]] std::vector<Content> notices_of(const devices::Gamepad::Status& pad);
 
 }  // namespace navvi_feedback::node

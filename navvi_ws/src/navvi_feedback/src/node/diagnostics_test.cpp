@@ -30,10 +30,11 @@ TEST(Diagnostics, tell_the_person_of_a_pad_that_jolts_cannot_rumble_or_is_ignore
   devices::Gamepad::Status pad;
   EXPECT_TRUE(notices_of(pad).empty());
   pad.connected = pad.has_rumble = pad.jolting_firmware = true;
-  EXPECT_EQ(notices_of(pad), std::vector<CueKind>{CueKind::pad_firmware});
+  EXPECT_EQ(notices_of(pad), (std::vector<Content>{{CueKind::notice, About::pad_firmware}}));
   pad.has_rumble = false;
   pad.others = 1;
-  EXPECT_EQ(notices_of(pad), (std::vector<CueKind>{CueKind::no_rumble, CueKind::second_pad}));
+  EXPECT_EQ(notices_of(pad), (std::vector<Content>{{CueKind::notice, About::no_rumble},
+                                                   {CueKind::notice, About::second_pad}}));
 }
 
 TEST(Diagnostics, tell_how_long_the_person_waited_for_what_was_seen) {

@@ -68,7 +68,7 @@ class FeedbackNode {
   /// Leaves nothing running, driving or speaking.
   void finish() {
     tick_timer_.stop();
-    for (const CueKind failure : settings_.finish()) guide_.announce(failure);
+    for (const Content& failure : settings_.finish()) guide_.announce(failure);
     if (guide_.end_session()) tick();
     outlets_.stop_wheels();
     for (const double end = now() + kLastWords; guide_.has_last_words() && now() < end;) {
@@ -90,14 +90,14 @@ class FeedbackNode {
       ROS_WARN(
           "The computer is too busy: touch and words come late. Close other programs; "
           "doc/driving.md says how NavVI goes before them.");
-      guide_.announce(CueKind::machine_slow);
+      guide_.announce({CueKind::notice, About::machine_slow});
     }
-    for (const CueKind failure : settings_.failures()) guide_.announce(failure);
-    if (outlets_.is_picture_back()) guide_.announce(CueKind::picture_back);
+    for (const Content& failure : settings_.failures()) guide_.announce(failure);
+    if (outlets_.is_picture_back()) guide_.announce({CueKind::back, About::picture});
     // A reader of words by topic comes a moment after this node.
     if (welcomes_ && (config_.listener != "topic" || outlets_.are_words_read())) {
       welcomes_ = false;
-      guide_.announce(CueKind::settings_of);
+      guide_.announce({CueKind::settings, About::of});
     }
     senses::Devices devices = devices_.read(time);
     inlets_.complete(devices);

@@ -42,11 +42,11 @@ Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, core::Guide& gui
 void Inlets::complete(senses::Devices& devices) {
   devices.robot = robot();
   devices.asked = asked_;
-  if (twin_) devices.states.push_back(CueKind::two_drivers);
+  if (twin_) devices.states.emplace_back(CueKind::notice, About::two_drivers);
   if (emergency_stop_) devices.states.push_back(CueKind::emergency_stop);
-  if (battery_low_) devices.states.push_back(CueKind::battery_low);
+  if (battery_low_) devices.states.emplace_back(CueKind::notice, About::battery_low);
   const StickAge::Late late = stick_age_.late(now());
-  if (late == StickAge::Late::slow) devices.states.push_back(CueKind::pad_late);
+  if (late == StickAge::Late::slow) devices.states.emplace_back(CueKind::notice, About::pad_late);
   if (late == StickAge::Late::too_late) devices.states.push_back(CueKind::pad_too_late);
 }
 

@@ -48,14 +48,15 @@ sensor_msgs::JoyFeedbackArray feedback_msg(const haptics::Rumble& rumble,
   return msg;
 }
 
-std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg) {
+std::optional<Content> last_words(const navvi_msgs::TrialEvent& msg) {
   if (msg.type != "TRIAL_END") return std::nullopt;
   const std::string fields = ";" + msg.fields + ";";
   const auto holds = [&](const char* field) { return fields.find(field) != std::string::npos; };
   // Both are told by themselves; with a goal that is refused nothing has begun for the person.
   if (holds(";result=reached;") || holds(";result=refused;")) return std::nullopt;
-  if (holds(";result=timeout;")) return CueKind::trial_time_up;
-  return holds(";reason=disk_full;") ? CueKind::trial_disk_full : CueKind::trial_over;
+  const bool late = holds(";result=timeout;");
+  if (!late && holds(";reason=disk_full;")) return CueKind::trial_disk_full;
+  return Content{CueKind::trial_ends, late ? About::time_up : About::over};
 }
 
 }  // namespace navvi_feedback::node

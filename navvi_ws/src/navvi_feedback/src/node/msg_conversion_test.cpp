@@ -46,11 +46,11 @@ TEST(LastWords, tell_the_end_of_a_trial_unless_the_arrival_does) {
   navvi_msgs::TrialEvent msg;
   msg.type = "TRIAL_END";
   msg.fields = "path_length=3.2;result=timeout;reason=limit";
-  EXPECT_EQ(last_words(msg), CueKind::trial_time_up);
+  EXPECT_EQ(last_words(msg), Content(CueKind::trial_ends, About::time_up));
   msg.fields = "result=invalid;reason=disk_full";
   EXPECT_EQ(last_words(msg), CueKind::trial_disk_full);
   msg.fields = "result=aborted;reason=guidance_lost";
-  EXPECT_EQ(last_words(msg), CueKind::trial_over);
+  EXPECT_EQ(last_words(msg), Content(CueKind::trial_ends, About::over));
   msg.fields = "result=reached;reason=goal_reached";
   EXPECT_FALSE(last_words(msg));
   msg.fields = "result=refused;reason=not_seen";

@@ -19,8 +19,8 @@ std::vector<person::Failure> joined(std::vector<person::Failure> some,
   return some;
 }
 
-std::vector<CueKind> cues_of(const std::vector<person::Failure>& failures) {
-  std::vector<CueKind> cues;
+std::vector<Content> cues_of(const std::vector<person::Failure>& failures) {
+  std::vector<Content> cues;
   for (const auto& [cue, detail] : failures) {
     if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
     cues.push_back(cue);
@@ -75,10 +75,10 @@ void Settings::keep(const core::Output& told) {
   if (file_) file_->save(found_);  // before it is said
 }
 
-std::vector<CueKind> Settings::failures() {
+std::vector<Content> Settings::failures() {
   return cues_of(joined(saver_.update(), places_.update()));
 }
-std::vector<CueKind> Settings::finish() {
+std::vector<Content> Settings::finish() {
   return cues_of(joined(saver_.finish(), places_.finish()));
 }
 

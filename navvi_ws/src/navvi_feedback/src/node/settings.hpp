@@ -34,9 +34,9 @@ class Settings {
   void keep(const core::Output& told);
 
   /// To be called often; does not wait. \return cues that say what has failed, which is logged
-  [[nodiscard]] std::vector<CueKind> failures();
+  [[nodiscard]] std::vector<Content> failures();
   /// Waits until all is saved. \return likewise
-  [[nodiscard]] std::vector<CueKind> finish();
+  [[nodiscard]] std::vector<Content> finish();
 
  private:
   NodeConfig& config_;

@@ -7,7 +7,7 @@ namespace navvi_feedback::person {
 SettingsSaver::SettingsSaver(std::optional<PersonFile> file) {
   if (file)
     saver_.emplace([file = *file](const std::vector<std::string>& words) { file.save(words); },
-                   CueKind::settings_not_saved);
+                   Content{CueKind::settings, About::not_saved});
 }
 
 void SettingsSaver::save(const std::string& word) {
@@ -18,7 +18,7 @@ void SettingsSaver::save(const std::string& word) {
 std::vector<Failure> SettingsSaver::update() {
   if (saver_) return saver_->update();
   if (!lost_ || std::exchange(told_, true)) return {};
-  return {{CueKind::settings_not_kept, ""}};
+  return {{{CueKind::settings, About::not_kept}, ""}};
 }
 
 std::vector<Failure> SettingsSaver::finish() { return saver_ ? saver_->finish() : update(); }

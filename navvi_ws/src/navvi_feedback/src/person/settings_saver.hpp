@@ -16,7 +16,7 @@ namespace navvi_feedback::person {
 
 /// What could not be kept.
 struct Failure {
-  CueKind cue;         ///< that says so
+  Content cue;         ///< that says so
   std::string detail;  ///< a sentence for the log, or empty
 };
 
@@ -27,7 +27,7 @@ class Saver {
   /// Runs in that thread. It throws if it fails.
   using Save = std::function<void(const std::vector<Item>&)>;
 
-  Saver(Save save, CueKind failure) : save_(std::move(save)), failure_(failure) {}
+  Saver(Save save, Content failure) : save_(std::move(save)), failure_(failure) {}
 
   /// From the next update() on.
   void save(Item item) { unsaved_.push_back(std::move(item)); }
@@ -63,7 +63,7 @@ class Saver {
   }
 
   Save save_;
-  CueKind failure_;
+  Content failure_;
   std::vector<Item> unsaved_;
   std::future<void> saving_;
 };

@@ -48,7 +48,7 @@ TEST_F(SettingsSaverTest, without_a_file_says_once_that_nothing_is_kept) {
   saver.save("rate:=300");
   const std::vector<Failure> failures = saver.update();
   ASSERT_EQ(failures.size(), 1U);
-  EXPECT_EQ(failures[0].cue, CueKind::settings_not_kept);
+  EXPECT_EQ(failures[0].cue, Content(CueKind::settings, About::not_kept));
   saver.save("rate:=310");
   EXPECT_TRUE(saver.finish().empty());
 }
@@ -60,7 +60,7 @@ TEST_F(SettingsSaverTest, tells_what_cannot_be_written) {
   saver.save("rate:=300");
   const std::vector<Failure> failures = saver.finish();
   ASSERT_EQ(failures.size(), 1U);
-  EXPECT_EQ(failures[0].cue, CueKind::settings_not_saved);
+  EXPECT_EQ(failures[0].cue, Content(CueKind::settings, About::not_saved));
   EXPECT_NE(failures[0].detail.find(folder_.string()), std::string::npos) << failures[0].detail;
 }
 

@@ -70,7 +70,7 @@ struct Observation {
   double goal_straight = 0.0;               ///< m, as the crow flies, where that is known
   std::optional<navvi_types::Place> place;  ///< the smallest that the robot is in
   TrialState::State trial = TrialState::State::free;
-  std::vector<CueKind> notices;  ///< to be said when they come, such as no_rumble
+  std::vector<Content> notices;  ///< to be said when they come, such as no_rumble
 
   /// At rest as far as nothing else is known.
   [[nodiscard]] Velocity motion() const { return measured.value_or(Velocity{}); }

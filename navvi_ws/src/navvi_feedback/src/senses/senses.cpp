@@ -67,9 +67,9 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   if (devices.robot) locate(now);
   now.trial = trial_.state;
   now.notices = devices.states;
-  if (slow_) now.notices.push_back(CueKind::connection_slow);
+  if (slow_) now.notices.emplace_back(CueKind::notice, About::connection_slow);
   if (assistance_ != DriveState::Assistance::nothing) now.notices.push_back(CueKind::assisted);
-  if (intruder_) now.notices.push_back(CueKind::intruder);
+  if (intruder_) now.notices.emplace_back(CueKind::notice, About::intruder);
   if (record_lost(time)) now.notices.push_back(CueKind::record_lost);
   return now;
 }

@@ -97,7 +97,7 @@ TEST(Senses, report_a_record_that_is_lost_while_a_trial_runs_if_it_was_repeated_
   EXPECT_TRUE(senses.observe({}, 0.02, 15.0).notices.empty()) << "one that does not repeat it";
   senses.take(running, 15.0);
   EXPECT_TRUE(senses.observe({}, 0.02, 16.9).notices.empty());
-  EXPECT_EQ(senses.observe({}, 0.02, 17.1).notices, std::vector{CueKind::record_lost});
+  EXPECT_EQ(senses.observe({}, 0.02, 17.1).notices, std::vector<Content>{CueKind::record_lost});
 }
 
 }  // namespace

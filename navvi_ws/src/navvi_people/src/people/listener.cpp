@@ -49,7 +49,7 @@ void fill(Instruction& told, const std::string& placeholder, const std::string& 
 void conclude(Instruction& told, CueKind kind) {
   told.asks = traits(kind).ask;
   told.slight = kind == CueKind::slight;
-  told.very_close = family_of(kind) == navvi_types::CueFamily::close;
+  told.very_close = kind == CueKind::close;
   told.holds = family_of(kind) == navvi_types::CueFamily::halt;
   if (told.slight) told.hour = told.side == Instruction::Side::left ? 11 : 1;
   if (told.asks == Ask::turn && told.hour == 12) told.asks = Ask::go;
@@ -74,15 +74,16 @@ Listener::Listener(const std::filesystem::path& phrases) {
     words_.emplace_back(item.second.Scalar(), item.first.Scalar());
   for (const char* section : {"phrases", "again", "clock", "brief", "full"})
     for (const auto& item : root[section]) {
-      const auto kind = navvi_types::from_word<CueKind>(item.first.Scalar());
-      if (!kind) continue;
+      const auto content = navvi_types::from_word<navvi_types::Content>(item.first.Scalar());
+      if (!content) continue;
+      const CueKind kind = content->kind;
       const std::string text = item.second.Scalar();
-      add(*kind, text);
-      const Family family = family_of(*kind);
+      add(kind, text);
+      const Family family = family_of(kind);
       if (family == Family::halt) holding_.insert(first_of(text));
-      if (family == Family::halt || family == Family::hit || family == Family::stuck)
+      if (family == Family::halt || kind == CueKind::collision || family == Family::stuck)
         startling_.insert(first_of(text));
-      if (*kind == CueKind::go_on && go_on_.empty()) go_on_ = text;
+      if (kind == CueKind::go_on && go_on_.empty()) go_on_ = text;
     }
 }
 
@@ -167,9 +168,8 @@ bool Listener::match(const Phrase& phrase, std::size_t piece, std::string_view t
 }
 
 bool Listener::follow_up(std::string_view rest, std::vector<Instruction>& heard) const {
-  static constexpr std::array kWay = {
-      CueKind::direction, CueKind::slight,      CueKind::straight,  CueKind::turn_ahead,
-      CueKind::around,    CueKind::around_side, CueKind::goal_info, CueKind::goal_info_distance};
+  static constexpr std::array kWay = {CueKind::direction,  CueKind::slight, CueKind::straight,
+                                      CueKind::turn_ahead, CueKind::around, CueKind::goal_info};
   return std::any_of(kWay.begin(), kWay.end(),
                      [&](CueKind more) { return parse(more, rest, heard); });
 }

@@ -79,7 +79,7 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
 TEST(Listener, takes_a_sentence_of_two_parts_as_both) {
   const Listener listener(NAVVI_PHRASES);
   const auto parts =
-      listener.understand(CueKind::shelf_near, "shelf ahead, keep a little left, 2 meters");
+      listener.understand(CueKind::near, "shelf ahead, keep a little left, 2 meters");
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].asks, Ask::beware);
   EXPECT_EQ(parts[0].side, Instruction::Side::ahead);
@@ -114,11 +114,11 @@ TEST(Listener, makes_the_same_of_words_alone_as_of_words_whose_kind_it_knows) {
       {CueKind::direction, "turn to 2 o'clock, 5 meters"},
       {CueKind::obstacle_stop, "stop, worker ahead"},
       {CueKind::blocked, "wait, pallet robot in the way"},
-      {CueKind::shelf_close, "shelf very close, on your left"},
-      {CueKind::collision_wall, "hit again, wall ahead"},
+      {CueKind::close, "shelf very close, on your left"},
+      {CueKind::collision, "hit again, wall ahead"},
       {CueKind::slight, "keep more to the left, 3 meters"},
       {CueKind::around, "shelf 1 meter left"},
-      {CueKind::around_side, "shelf left"},
+      {CueKind::around, "shelf left"},
       {CueKind::goal_info, "the goal is 18 meters on, at 10 o'clock"}};
   for (const auto& [kind, text] : sentences) {
     const auto known = listener.understand(kind, text);

@@ -19,7 +19,7 @@ using navvi_types::CueKind;
 
 /// The menu is closed, by itself or by what was chosen.
 bool closes(CueKind kind) {
-  return family_of(kind) == CueFamily::menu_end || family_of(kind) == CueFamily::refusal ||
+  return family_of(kind) == CueFamily::menu_end || kind == CueKind::goal_refused ||
          kind == CueKind::lesson;
 }
 
@@ -30,8 +30,7 @@ Shown::Tone tone_of(CueKind kind) {
     case CueKind::blocked:
     case CueKind::make_room:
     case CueKind::which_side:
-    case CueKind::press_start:
-    case CueKind::press_enter:
+    case CueKind::press:
     case CueKind::choose_goal:
     case CueKind::lesson:
       return Shown::Tone::wait;
@@ -58,7 +57,7 @@ std::string Words::of(const std::string& key) const {
 
 std::string Words::said(navvi_types::CueKind kind, bool keyboard) const {
   const std::string place = "{stick}";
-  std::string text = of(std::string("phrases/") + to_string(kind));
+  std::string text = of("phrases/" + to_string(kind));
   if (const std::size_t at = text.find(place); at != std::string::npos)
     text.replace(at, place.size(), of(keyboard ? "words/key_stick" : "words/pad_stick"));
   return text;
@@ -87,7 +86,7 @@ void Status::take(const navvi_types::CueEvent& cue, double time) {
   if (!cue.kind()) return;
   const CueKind kind = *cue.kind();
   // The menu goes on, also where its word comes too late to be spoken.
-  if (cue.stage == CueStage::queued && family_of(kind) == CueFamily::menu) menu_ = cue.text;
+  if (cue.stage == CueStage::queued && kind == CueKind::menu) menu_ = cue.text;
   if (cue.stage == CueStage::queued && closes(kind)) menu_.clear();
   // Where nothing can be heard, what would have been is dropped.
   if (cue.stage != CueStage::started && !(silent_ && cue.stage == CueStage::dropped)) return;

@@ -74,10 +74,10 @@ TEST(Status, shows_the_order_but_for_the_way_which_the_plate_shows) {
   Status status = speaking();
   for (const auto& [kind, tone] : std::map<CueKind, Tone>{{CueKind::blocked, Tone::wait},
                                                           {CueKind::obstacle_stop, Tone::alarm},
-                                                          {CueKind::press_enter, Tone::wait},
+                                                          {CueKind::press, Tone::wait},
                                                           {CueKind::lesson, Tone::wait},
                                                           {CueKind::make_room, Tone::wait},
-                                                          {CueKind::no_route, Tone::alarm},
+                                                          {CueKind::no_way, Tone::alarm},
                                                           {CueKind::arrived, Tone::good}}) {
     status.take_order(said(kind, "as the guide has it"));
     EXPECT_EQ(status.shown(1.0, 0.0).banner, "as the guide has it") << to_string(kind);
@@ -150,13 +150,13 @@ TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
     cue.stage = CueStage::queued;
     return cue;
   };
-  status.take(queued(CueKind::setting, "volume, 50 percent"), 0.0);
+  status.take(queued(CueKind::menu, "volume, 50 percent"), 0.0);
   status.take(said(CueKind::direction, "turn to 2 o'clock, 5 meters"), 1.0);
   EXPECT_EQ(status.shown(1.0, 0.0).menu, "volume, 50 percent");
   EXPECT_EQ(status.shown(1.0, 0.0).instruction, "turn to 2 o'clock, 5 meters");
   status.take(queued(CueKind::menu_closed, "menu closed"), 2.0);
   EXPECT_EQ(status.shown(2.0, 0.0).menu, "");
-  status.take(queued(CueKind::menu_begin, "begin the trial"), 3.0);
+  status.take(queued(CueKind::menu, "begin the trial"), 3.0);
   status.take(navvi_types::TrialState{navvi_types::TrialState::State::running});
   EXPECT_EQ(status.shown(3.0, 0.0).menu, "") << "it was chosen";
 }
@@ -189,7 +189,7 @@ TEST(Status, the_panel_says_of_the_way_what_the_plate_says) {
     status.take(said(kind, "turn to 9 o'clock now"), 1.0);
     EXPECT_EQ(shown(1.0), "in 1.5 meters, 9 o'clock") << "it is older than the order";
   }
-  status.take(said(CueKind::collision_shelf, "hit, shelf on the left"), 2.0);
+  status.take(said(CueKind::collision, "hit, shelf on the left"), 2.0);
   EXPECT_EQ(shown(2.0), "hit, shelf on the left") << "to be read first";
   EXPECT_EQ(shown(7.0), "in 1.5 meters, 9 o'clock");
   status.take(said(CueKind::straight, "drive straight, 4 meters"), 8.0);

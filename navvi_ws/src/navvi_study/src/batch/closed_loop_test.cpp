@@ -385,9 +385,9 @@ class Voxels {
 
 /// Whether a sentence says what to do, and not only what there is.
 bool instructs(const navvi_msgs::Cue& cue, const people::Listener& listener) {
-  const auto kind = navvi_types::from_word<navvi_types::CueKind>(cue.kind);
-  if (!kind || *kind == navvi_types::CueKind::obstacle_stop) return kind.has_value();
-  const auto parts = listener.understand(*kind, cue.text);
+  const auto told = navvi_types::from_word<navvi_types::Content>(cue.kind);
+  if (!told || *told == navvi_types::CueKind::obstacle_stop) return told.has_value();
+  const auto parts = listener.understand(told->kind, cue.text);
   return std::any_of(parts.begin(), parts.end(), [](const people::Instruction& part) {
     return part.asks != people::Ask::nothing && part.asks != people::Ask::ready &&
            part.asks != people::Ask::beware;

@@ -27,9 +27,9 @@ constexpr float kNearby = 1.5F;  // m; what is farther away does not hold a robo
 
 bool asks_to_turn(const TrackRow& row) {
   if (row.cue.empty() && row.sounds.empty()) return false;
-  const auto kind = navvi_types::from_word<navvi_types::CueKind>(row.cue.text());
+  const auto told = navvi_types::from_word<navvi_types::Content>(row.cue.text());
   const std::string sounds = " " + row.sounds.text() + " ";
-  return (kind && traits(*kind).ask == navvi_types::Ask::turn) ||
+  return (told && traits(told->kind).ask == navvi_types::Ask::turn) ||
          sounds.find(" turn ") != std::string::npos;
 }
 

@@ -9,6 +9,7 @@
 namespace navvi_study::record {
 namespace {
 
+using navvi_types::Content;
 using navvi_types::CueKind;
 using navvi_types::radians;
 
@@ -24,8 +25,8 @@ constexpr double kHour = radians(30.0);
 
 bool is_spoken(const Row& row) { return row.fields.get("modality") == "speech"; }
 
-std::optional<CueKind> kind_of(const Row& row) {
-  return navvi_types::from_word<CueKind>(row.fields.get("kind"));
+std::optional<Content> told_in(const Row& row) {
+  return navvi_types::from_word<Content>(row.fields.get("kind"));
 }
 
 bool ends_with(const std::string& text, const std::string& end) {
@@ -52,8 +53,8 @@ class Ear {
     const auto last = last_said_.find(text);
     if (!asked && last != last_said_.end() && time - last->second < kSame) ++speech_.repeats;
     last_said_[text] = time;
-    judge_ahead(text, kind_of(row), time);
-    if (!asked) judge_waits(kind_of(row), time);
+    judge_ahead(text, told_in(row), time);
+    if (!asked) judge_waits(told_in(row), time);
   }
   [[nodiscard]] const Speech& speech() const { return speech_; }
 
@@ -67,20 +68,20 @@ class Ear {
     constexpr double kRounding = 1e-6;  // s
     return then && time - *then < span - kRounding;
   }
-  void judge_ahead(const std::string& text, std::optional<CueKind> kind, double time) {
+  void judge_ahead(const std::string& text, const std::optional<Content>& told, double time) {
     const bool straight = text.find("straight") != std::string::npos;
-    const bool ahead = !straight && ends_with(text, " ahead") && kind != CueKind::start;
+    const bool ahead = !straight && ends_with(text, " ahead") && told != CueKind::start;
     if ((straight && just_now(ahead_, time, kObey)) || (ahead && just_now(straight_, time, kObey)))
       ++speech_.at_odds;
     if (straight) straight_ = time;
     if (ahead) ahead_ = time;
   }
-  void judge_waits(std::optional<CueKind> kind, double time) {
+  void judge_waits(const std::optional<Content>& told, double time) {
     // What is more urgent than to wait may well follow at once.
-    const bool urgent = kind && traits(*kind).priority >= navvi_types::Priority::important;
+    const bool urgent = told && traits(told->kind).priority >= navvi_types::Priority::important;
     if (just_now(waited_, time, kObey) && !urgent) ++speech_.hasty;
     waited_.reset();
-    if (!kind || family_of(*kind) != navvi_types::CueFamily::halt) return;
+    if (!told || family_of(told->kind) != navvi_types::CueFamily::halt) return;
     ++speech_.waits;
     waited_ = time;
   }
@@ -95,17 +96,9 @@ class Ear {
   std::map<std::string, double> last_said_;  // s, by text
 };
 
-bool tells_new_way(CueKind kind) {
-  switch (kind) {
-    case CueKind::rerouted:
-    case CueKind::rerouted_blocked:
-    case CueKind::new_route:
-    case CueKind::no_route:
-    case CueKind::make_room:
-      return true;
-    default:
-      return false;
-  }
+bool tells_new_way(const Content& told) {
+  return told == CueKind::rerouted || told == CueKind::new_route || told == CueKind::make_room ||
+         told == Content(CueKind::no_way, navvi_types::About::no_route);
 }
 
 /// How many hours lie between two, the shorter way round.
@@ -127,23 +120,23 @@ class Compass {
   explicit Compass(const Trial& trial) : trial_(trial) {}
 
   void hear(const Row& row) {
-    const auto kind = kind_of(row);
+    const auto told = told_in(row);
     const std::string asks = row.fields.get("asks");
     const TrackRow* at = trial_.at(time_of(row));
-    if (!kind || asks == "n/a" || at == nullptr) return;
+    if (!told || asks == "n/a" || at == nullptr) return;
     const int hour = static_cast<int>(row.fields.number("hour").value_or(12.0));
-    const bool new_way = tells_new_way(*kind);
+    const bool new_way = tells_new_way(*told);
     const bool replaced =
-        new_way || kind == CueKind::straight_then || kind == CueKind::turn_cancelled;
+        new_way || told == CueKind::straight_then || told == CueKind::turn_cancelled;
     if (replaced || driven(*at) > announced_until_) announced_ = 0;
-    if (kind == CueKind::turn_ahead) {
+    if (told == CueKind::turn_ahead) {
       announced_ = hour;
       announced_until_ = driven(*at) + row.fields.number("within").value_or(0.0) + kSamePlace;
       return;
     }
     if (asks != "turn" && asks != "go") return;
     const Said now{hour, at->yaw - hour * kHour, time_of(row), at->x, at->y};
-    const bool corner = kind == CueKind::turn_now;
+    const bool corner = told == CueKind::turn_now;
     if (corner && announced_ != 0 && hours_between(announced_, hour) > 1) ++found_.misled;
     if (corner) announced_ = 0;
     if (said_.hour != 0) compare(now, corner, new_way);

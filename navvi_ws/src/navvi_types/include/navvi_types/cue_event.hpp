@@ -24,10 +24,11 @@ enum class Modality : std::uint8_t { speech, rumble, sound };
 }
 
 /// A sentence.
-struct Spoken {
+struct Spoken : Content {
   // NOLINTNEXTLINE(google-explicit-constructor): a kind alone is a sentence of the guide
-  Spoken(CueKind of = CueKind::lesson, std::string key = {}) : kind(of), lesson(std::move(key)) {}
-  CueKind kind;
+  Spoken(CueKind of = CueKind::lesson) : Content(of) {}
+  // NOLINTNEXTLINE(google-explicit-constructor): so is a content
+  Spoken(const Content& of, std::string key = {}) : Content(of), lesson(std::move(key)) {}
   std::string lesson;  ///< key of the text, where the kind is a lesson's
 };
 /// A change of the motors.
@@ -47,10 +48,14 @@ struct CueEvent {
   std::int64_t stamp = 0;  ///< ns, ROS time
 
   [[nodiscard]] Modality modality() const { return static_cast<Modality>(what.index()); }
+  /// nullptr for what is not spoken
+  [[nodiscard]] const Spoken* spoken() const { return std::get_if<Spoken>(&what); }
   /// nullopt for what is not spoken
+  [[nodiscard]] std::optional<Content> content() const {
+    return spoken() != nullptr ? std::optional<Content>(*spoken()) : std::nullopt;
+  }
   [[nodiscard]] std::optional<CueKind> kind() const {
-    const auto* const spoken = std::get_if<Spoken>(&what);
-    return spoken != nullptr ? std::optional(spoken->kind) : std::nullopt;
+    return spoken() != nullptr ? std::optional(spoken()->kind) : std::nullopt;
   }
   /// In messages and records: the kind, a lesson's key, the pattern or "rumble", or the sound.
   [[nodiscard]] std::string word() const;

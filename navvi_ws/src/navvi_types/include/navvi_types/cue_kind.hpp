@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <iterator>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "navvi_types/names.hpp"
 #include "navvi_types/signal.hpp"
@@ -16,151 +18,69 @@ enum class Priority : std::uint8_t { progress, notification, text, message, impo
   return {"progress", "notification", "text", "message", "important"};
 }
 
-/// Every kind of sentence that the guide speaks. Each has a row of kCueKinds, and a phrase.
+// clang-format off
+/// Every kind of sentence that the guide speaks. Each has a row of kRows, and a phrase.
 enum class CueKind : std::uint8_t {
-  // Safety: nothing cuts these. Each thing that is hit has its own cue, see CuePolicy.
-  collision_shelf,
-  collision_wall,
-  collision_obstacle,
-  obstacle_stop,
-  pad_lost,
-  keyboard_lost,
-  pad_too_late,
-  emergency_stop,
-  robot_stopped,
-  simulator_lost,
-  odometry_lost,
-  connection_lost,
-  proximity_lost,
-  guidance_lost,
-  record_lost,
-  trial_disk_full,
+  // Safety: nothing cuts these.
+  collision, obstacle_stop, stick_lost, pad_too_late, emergency_stop, robot_stopped, robot_lost,
+  connection_lost, proximity_lost, guidance_lost, record_lost, trial_disk_full,
   // What the person must act on now.
-  stuck,
-  stuck_unknown,
-  arrived,
-  turn_now,
-  no_route,
-  off_mesh,
-  no_map,
-  pose_stale,
-  map_stale,
-  blocked,
-  obstacle_comes,
-  back_away,
-  go_on,
-  make_room,
-  goal_refused_not_finite,
-  goal_refused_unknown_frame,
-  goal_refused_inside_obstacle,
-  goal_refused_off_the_map,
-  goal_refused_unreachable,
-  goal_refused_not_seen,
-  release_stick,
-  hold_to_drive,
-  intruder,
-  machine_slow,
-  pad_late,
-  battery_low,
-  assisted,
-  connection_slow,
-  two_drivers,
-  pad_back,
-  keyboard_back,
-  audio_back,
-  connection_back,
-  picture_back,
-  proximity_back,
-  no_rumble,
-  second_pad,
-  sides_wrong,
-  which_side,
-  press_start,
-  press_enter,
-  choose_goal,
-  trial_begins,
-  goal_chosen,
-  goal_sure,
-  menu_begin,
-  menu_goals,
-  menu_place,
-  menu_glossary,
-  menu_remember,
-  menu_end,
-  menu_end_sure,
-  menu_empty,
-  menu_closed,
-  no_trial,
-  menu_settings,
-  setting,
-  setting_open,
-  setting_changed,
-  settings_of,
-  settings_not_kept,
-  settings_not_saved,
-  place_saved,
-  place_not_saved,
-  place_no_file,
-  place_no_pose,
-  trial_time_up,
-  trial_over,
-  pad_firmware,
+  stuck, stuck_unknown, arrived, turn_now, no_way, off_mesh, blocked, obstacle_comes, back_away,
+  go_on, make_room, goal_refused, release_stick, hold_to_drive, notice, assisted, pad_back, back,
+  proximity_back, sides_wrong, which_side, press, choose_goal, trial_begins, goal_chosen, menu,
+  menu_closed, no_trial, settings, place, place_not_saved, trial_ends,
   // The way.
-  start,
-  start_distance,
-  toward_goal,
-  goal_seen,
-  direction,
-  straight,
-  slight,
-  straight_then,
-  turn_ahead,
-  wrong_way,
-  off_path,
-  turn_cancelled,
-  push,
-  rerouted,
-  rerouted_blocked,
-  new_route,
-  way_blocked,
-  shelf_near,
-  wall_near,
-  shelf_close,
-  wall_close,
-  obstacle_near,
-  obstacle_close,
+  start, toward_goal, goal_seen, direction, straight, slight, straight_then, turn_ahead, wrong_way,
+  off_path, turn_cancelled, push, rerouted, new_route, way_blocked, near, close,
   // On demand, and by the way.
-  goal_info,
-  goal_info_distance,
-  no_goal,
-  around,
-  around_side,
-  stops_before,
-  where,
-  where_place,
-  where_goal,
-  help_pad,
-  help_keys,
-  help_menu,
-  around_nothing,
-  welcome,
+  goal_info, no_goal, around, stops_before, where, where_place, where_goal, help, help_menu,
+  around_nothing, welcome,
   // Not in the phrases: a sentence of a lesson has a key of its own.
   lesson,
 };
 
+/// What a sentence is about, where its kind has several: a thing, a device, a reason, an entry.
+enum class About : std::uint8_t {
+  none,
+  shelf, wall, obstacle,
+  pad, keyboard, simulator, odometry, audio, connection, picture,
+  no_route, no_map, pose_stale, map_stale,
+  not_finite, unknown_frame, inside_obstacle, off_the_map, unreachable, not_seen,
+  intruder, machine_slow, pad_late, battery_low, connection_slow, two_drivers, no_rumble,
+  second_pad, pad_firmware,
+  start, enter, keys,
+  goal_sure, menu_begin, menu_goals, menu_place, menu_glossary, menu_remember, menu_end,
+  menu_end_sure, menu_empty, menu_settings, setting, setting_open, setting_changed,
+  of, not_kept, not_saved, saved, no_file, no_pose,
+  time_up, over,
+  distance, side, blocked,
+};
+[[nodiscard]] constexpr std::array<const char*, 57> names(About) {
+  return {"",
+          "shelf", "wall", "obstacle",
+          "pad", "keyboard", "simulator", "odometry", "audio", "connection", "picture",
+          "no_route", "no_map", "pose_stale", "map_stale",
+          "not_finite", "unknown_frame", "inside_obstacle", "off_the_map", "unreachable", "not_seen",
+          "intruder", "machine_slow", "pad_late", "battery_low", "connection_slow", "two_drivers",
+          "no_rumble", "second_pad", "pad_firmware",
+          "start", "enter", "keys",
+          "goal_sure", "menu_begin", "menu_goals", "menu_place", "menu_glossary", "menu_remember",
+          "menu_end", "menu_end_sure", "menu_empty", "menu_settings", "setting", "setting_open",
+          "setting_changed",
+          "of", "not_kept", "not_saved", "saved", "no_file", "no_pose",
+          "time_up", "over",
+          "distance", "side", "blocked"};
+}
+// clang-format on
+
 /// Kinds that are treated alike.
 enum class CueFamily : std::uint8_t {
   other,
-  hit,        ///< something was touched
   halt,       ///< stop, until "go on"
   stuck,      ///< the robot does not move as it is driven
   way,        ///< a direction that the person may do without
   route,      ///< a direction that they may not do without
-  near,       ///< a thing within reach, where nothing need be done
-  close,      ///< likewise, all but touched
-  refusal,    ///< of a goal
   trial_end,  ///< why a trial is over
-  menu,       ///< an entry of the spoken menu
   menu_end,   ///< the menu is closed
 };
 
@@ -182,14 +102,16 @@ enum class Ask : std::uint8_t {
 /// How a kind of cue is treated.
 struct CueTraits {
   CueKind kind;
-  const char* word;  ///< in messages, phrases and records
+  /// In messages, phrases and records; `*` stands for what the sentence is about.
+  const char* word;
   Priority priority;
-  double min_interval;  ///< s, the least time between two of the same kind
+  double min_interval;  ///< s, the least time between two of the same content
   double max_age;       ///< s after which it is dropped if it has not begun
   CueFamily family = CueFamily::other;
   Ask ask = Ask::nothing;
   bool shown = false;  ///< some seconds in the banner, as what it is about lasts no longer
-  std::optional<Pattern> felt = {};  ///< the motors' pattern that begins with it
+  std::optional<Pattern> felt = {};   ///< the motors' pattern that begins with it
+  std::array<About, 13> about = {};  ///< all that it can be about; none, but the first, ends the list
 };
 
 namespace cue_table {
@@ -198,25 +120,24 @@ using P = Priority;
 using F = CueFamily;
 using A = Ask;
 using T = Pattern;
+using B = About;
 
-// kind, word, priority, least interval in s, largest age in s, family, ask, shown, pattern
+// kind, word, priority, least interval in s, largest age in s, family, ask, shown, pattern, about
 inline constexpr CueTraits kRows[] = {
     // Safety: nothing cuts these. Each thing that is hit has its own cue, see CuePolicy; the loss
     // of a device has no least interval, or "it is back" would stand, see Flapping.
-    {K::collision_shelf, "collision_shelf", P::important, 0.0, 3.0, F::hit, A::back, true},
-    {K::collision_wall, "collision_wall", P::important, 0.0, 3.0, F::hit, A::back, true},
-    {K::collision_obstacle, "collision_obstacle", P::important, 0.0, 3.0, F::hit, A::back,
-     true},
+    {K::collision, "collision_*", P::important, 0.0, 3.0, F::other, A::back, true, {},
+     {B::shelf, B::wall, B::obstacle}},
     {K::obstacle_stop, "obstacle_stop", P::important, 3.0, 1.0, F::halt, A::beware, false,
      T::halt},
-    {K::pad_lost, "pad_lost", P::important, 0.0, 10.0, F::other, A::halt},
-    {K::keyboard_lost, "keyboard_lost", P::important, 0.0, 10.0, F::other, A::halt},
+    {K::stick_lost, "*_lost", P::important, 0.0, 10.0, F::other, A::halt, false, {},
+     {B::pad, B::keyboard}},
     {K::pad_too_late, "pad_too_late", P::important, 5.0, 10.0, F::other, A::halt},
     {K::emergency_stop, "emergency_stop", P::important, 2.0, 10.0, F::other, A::halt},
     {K::robot_stopped, "robot_stopped", P::important, 2.0, 4.0, F::other, A::halt, false,
      T::stopped},
-    {K::simulator_lost, "simulator_lost", P::important, 5.0, 10.0, F::other, A::halt},
-    {K::odometry_lost, "odometry_lost", P::important, 5.0, 10.0, F::other, A::halt},
+    {K::robot_lost, "*_lost", P::important, 5.0, 10.0, F::other, A::halt, false, {},
+     {B::simulator, B::odometry}},
     {K::connection_lost, "connection_lost", P::important, 5.0, 10.0, F::other, A::halt, false,
      T::stopped},
     {K::proximity_lost, "proximity_lost", P::important, 0.0, 10.0, F::other, A::nothing, true},
@@ -230,81 +151,52 @@ inline constexpr CueTraits kRows[] = {
      T::stuck},
     {K::arrived, "arrived", P::message, 1.0, 10.0, F::other, A::rest, false, T::arrived},
     {K::turn_now, "turn_now", P::message, 1.0, 1.0, F::route, A::turn},
-    {K::no_route, "no_route", P::message, 5.0, 5.0, F::other, A::halt},
+    {K::no_way, "*", P::message, 5.0, 5.0, F::other, A::halt, false, {},
+     {B::no_route, B::no_map, B::pose_stale, B::map_stale}},
     {K::off_mesh, "off_mesh", P::message, 5.0, 5.0, F::other, A::back},
-    {K::no_map, "no_map", P::message, 5.0, 5.0, F::other, A::halt},
-    {K::pose_stale, "pose_stale", P::message, 5.0, 5.0, F::other, A::halt},
-    {K::map_stale, "map_stale", P::message, 5.0, 5.0, F::other, A::halt},
     {K::blocked, "blocked", P::message, 3.0, 1.0, F::halt, A::halt, false, T::halt},
     {K::obstacle_comes, "obstacle_comes", P::message, 1.5, 1.0, F::other, A::beware},
     {K::back_away, "back_away", P::message, 2.0, 1.0, F::other, A::back, true, T::stuck},
     {K::go_on, "go_on", P::message, 1.0, 2.0, F::other, A::go},
     {K::make_room, "make_room", P::message, 1.0, 1.0, F::route, A::turn},
-    {K::goal_refused_not_finite, "goal_refused_not_finite", P::message, 1.0, 10.0, F::refusal,
-     A::halt},
-    {K::goal_refused_unknown_frame, "goal_refused_unknown_frame", P::message, 1.0, 10.0, F::refusal,
-     A::halt},
-    {K::goal_refused_inside_obstacle, "goal_refused_inside_obstacle", P::message, 1.0, 10.0,
-     F::refusal, A::halt},
-    {K::goal_refused_off_the_map, "goal_refused_off_the_map", P::message, 1.0, 10.0, F::refusal,
-     A::halt},
-    {K::goal_refused_unreachable, "goal_refused_unreachable", P::message, 1.0, 10.0, F::refusal,
-     A::halt},
-    {K::goal_refused_not_seen, "goal_refused_not_seen", P::message, 1.0, 10.0, F::refusal, A::halt},
+    {K::goal_refused, "goal_refused_*", P::message, 1.0, 10.0, F::other, A::halt, false, {},
+     {B::not_finite, B::unknown_frame, B::inside_obstacle, B::off_the_map, B::unreachable,
+      B::not_seen}},
     {K::release_stick, "release_stick", P::message, 2.0, 2.0, F::other, A::halt, true,
      T::stopped},
     {K::hold_to_drive, "hold_to_drive", P::message, 2.0, 2.0, F::other, A::nothing, true},
-    {K::intruder, "intruder", P::message, 5.0, 10.0},
-    {K::machine_slow, "machine_slow", P::message, 5.0, 10.0},
-    {K::pad_late, "pad_late", P::message, 5.0, 10.0},
-    {K::battery_low, "battery_low", P::message, 5.0, 10.0},
+    {K::notice, "*", P::message, 5.0, 10.0, F::other, A::nothing, false, {},
+     {B::intruder, B::machine_slow, B::pad_late, B::battery_low, B::connection_slow,
+      B::two_drivers, B::no_rumble, B::second_pad, B::pad_firmware}},
     {K::assisted, "assisted", P::text, 10.0, 1.0, F::other, A::nothing, false, T::assisted},
-    {K::connection_slow, "connection_slow", P::message, 5.0, 10.0},
-    {K::two_drivers, "two_drivers", P::message, 5.0, 10.0},
     {K::pad_back, "pad_back", P::message, 2.0, 5.0, F::other, A::halt},
-    {K::keyboard_back, "keyboard_back", P::message, 2.0, 5.0},
-    {K::audio_back, "audio_back", P::message, 2.0, 5.0},
-    {K::connection_back, "connection_back", P::message, 2.0, 5.0},
-    {K::picture_back, "picture_back", P::message, 2.0, 5.0},
+    {K::back, "*_back", P::message, 2.0, 5.0, F::other, A::nothing, false, {},
+     {B::keyboard, B::audio, B::connection, B::picture}},
     {K::proximity_back, "proximity_back", P::message, 5.0, 5.0},
-    {K::no_rumble, "no_rumble", P::message, 5.0, 10.0},
-    {K::second_pad, "second_pad", P::message, 5.0, 10.0},
     {K::sides_wrong, "sides_wrong", P::message, 5.0, 10.0, F::other, A::nothing, true},
     {K::which_side, "which_side", P::message, 2.0, 5.0},
-    {K::press_start, "press_start", P::message, 2.0, 5.0, F::other, A::begin, false, T::ready},
-    {K::press_enter, "press_enter", P::message, 2.0, 5.0, F::other, A::begin, false, T::ready},
+    {K::press, "press_*", P::message, 2.0, 5.0, F::other, A::begin, false, T::ready,
+     {B::start, B::enter}},
     {K::choose_goal, "choose_goal", P::message, 2.0, 5.0},
     {K::trial_begins, "trial_begins", P::message, 1.0, 2.0, F::other, A::nothing, false,
      T::begun},
     {K::goal_chosen, "goal_chosen", P::message, 0.0, 4.0, F::menu_end},
-    {K::goal_sure, "goal_sure", P::message, 0.0, 4.0, F::menu},
-    {K::menu_begin, "menu_begin", P::message, 0.0, 4.0, F::menu},
-    {K::menu_goals, "menu_goals", P::message, 0.0, 4.0, F::menu},
-    {K::menu_place, "menu_place", P::message, 0.0, 4.0, F::menu},
-    {K::menu_glossary, "menu_glossary", P::message, 0.0, 4.0, F::menu},
-    {K::menu_remember, "menu_remember", P::message, 0.0, 4.0, F::menu},
-    {K::menu_end, "menu_end", P::message, 0.0, 4.0, F::menu},
-    {K::menu_end_sure, "menu_end_sure", P::message, 0.0, 4.0, F::menu},
-    {K::menu_empty, "menu_empty", P::message, 0.0, 4.0, F::menu},
+    {K::menu, "*", P::message, 0.0, 4.0, F::other, A::nothing, false, {},
+     {B::goal_sure, B::menu_begin, B::menu_goals, B::menu_place, B::menu_glossary, B::menu_remember,
+      B::menu_end, B::menu_end_sure, B::menu_empty, B::menu_settings, B::setting, B::setting_open,
+      B::setting_changed}},
     {K::menu_closed, "menu_closed", P::message, 0.0, 4.0, F::menu_end},
     {K::no_trial, "no_trial", P::message, 0.0, 4.0},
-    {K::menu_settings, "menu_settings", P::message, 0.0, 4.0, F::menu},
-    {K::setting, "setting", P::message, 0.0, 4.0, F::menu},
-    {K::setting_open, "setting_open", P::message, 0.0, 4.0, F::menu},
-    {K::setting_changed, "setting_changed", P::message, 0.0, 4.0, F::menu},
-    {K::settings_of, "settings_of", P::message, 1.0, 10.0},
-    {K::settings_not_kept, "settings_not_kept", P::message, 1.0, 10.0},
-    {K::settings_not_saved, "settings_not_saved", P::message, 1.0, 10.0},
-    {K::place_saved, "place_saved", P::message, 0.0, 4.0, F::menu_end},
+    {K::settings, "settings_*", P::message, 1.0, 10.0, F::other, A::nothing, false, {},
+     {B::of, B::not_kept, B::not_saved}},
+    {K::place, "place_*", P::message, 0.0, 4.0, F::menu_end, A::nothing, false, {},
+     {B::saved, B::no_file, B::no_pose}},
     {K::place_not_saved, "place_not_saved", P::message, 0.0, 10.0, F::menu_end},
-    {K::place_no_file, "place_no_file", P::message, 0.0, 4.0, F::menu_end},
-    {K::place_no_pose, "place_no_pose", P::message, 0.0, 4.0, F::menu_end},
-    {K::trial_time_up, "trial_time_up", P::message, 5.0, 10.0, F::trial_end, A::nothing, true},
-    {K::trial_over, "trial_over", P::message, 5.0, 10.0, F::trial_end, A::nothing, true},
-    {K::pad_firmware, "pad_firmware", P::message, 5.0, 10.0},
+    {K::trial_ends, "trial_*", P::message, 5.0, 10.0, F::trial_end, A::nothing, true, {},
+     {B::time_up, B::over}},
     // The way.
-    {K::start, "start", P::text, 2.0, 10.0, F::other, A::ready},
-    {K::start_distance, "start_distance", P::text, 2.0, 10.0, F::other, A::ready},
+    {K::start, "start_*", P::text, 2.0, 10.0, F::other, A::ready, false, {},
+     {B::none, B::distance}},
     {K::toward_goal, "toward_goal", P::text, 0.0, 10.0, F::other, A::ready},
     {K::goal_seen, "goal_seen", P::text, 0.0, 10.0, F::other, A::ready},
     {K::direction, "direction", P::text, 1.0, 1.0, F::way, A::turn},
@@ -316,30 +208,26 @@ inline constexpr CueTraits kRows[] = {
     {K::off_path, "off_path", P::text, 2.0, 1.0, F::route},
     {K::turn_cancelled, "turn_cancelled", P::text, 1.0, 1.0, F::way, A::go},
     {K::push, "push", P::text, 2.0, 1.0, F::way, A::go},
-    {K::rerouted, "rerouted", P::text, 4.0, 1.0, F::route, A::turn, false, T::rerouted},
-    {K::rerouted_blocked, "rerouted_blocked", P::text, 4.0, 1.0, F::route, A::turn, false,
-     T::rerouted},
+    {K::rerouted, "rerouted_*", P::text, 4.0, 1.0, F::route, A::turn, false, T::rerouted,
+     {B::none, B::blocked}},
     {K::new_route, "new_route", P::message, 4.0, 1.0, F::other, A::nothing, false, T::rerouted},
     {K::way_blocked, "way_blocked", P::message, 4.0, 1.0, F::other, A::nothing, false,
      T::rerouted},
-    {K::shelf_near, "shelf_near", P::text, 1.5, 1.0, F::near, A::beware},
-    {K::wall_near, "wall_near", P::text, 1.5, 1.0, F::near, A::beware},
-    {K::shelf_close, "shelf_close", P::text, 1.5, 1.0, F::close, A::beware},
-    {K::wall_close, "wall_close", P::text, 1.5, 1.0, F::close, A::beware},
-    {K::obstacle_near, "obstacle_near", P::text, 1.5, 1.0, F::near, A::beware},
-    {K::obstacle_close, "obstacle_close", P::text, 1.5, 1.0, F::close, A::beware},
+    {K::near, "*_near", P::text, 1.5, 1.0, F::other, A::beware, false, {},
+     {B::shelf, B::wall, B::obstacle}},
+    {K::close, "*_close", P::text, 1.5, 1.0, F::other, A::beware, false, {},
+     {B::shelf, B::wall, B::obstacle}},
     // On demand, and by the way.
-    {K::goal_info, "goal_info", P::text, 0.5, 1.0},
-    {K::goal_info_distance, "goal_info_distance", P::text, 0.5, 1.0},
+    {K::goal_info, "goal_info_*", P::text, 0.5, 1.0, F::other, A::nothing, false, {},
+     {B::none, B::distance}},
     {K::no_goal, "no_goal", P::text, 0.5, 4.0},
-    {K::around, "around", P::text, 0.5, 1.0},
-    {K::around_side, "around_side", P::text, 0.5, 1.0},
+    {K::around, "around_*", P::text, 0.5, 1.0, F::other, A::nothing, false, {},
+     {B::none, B::side}},
     {K::stops_before, "stops_before", P::text, 0.5, 1.0},
     {K::where, "where", P::text, 0.5, 1.0},
     {K::where_place, "where_place", P::text, 0.5, 4.0},
     {K::where_goal, "where_goal", P::text, 0.5, 1.0},
-    {K::help_pad, "help_pad", P::text, 0.5, 4.0},
-    {K::help_keys, "help_keys", P::text, 0.5, 4.0},
+    {K::help, "help_*", P::text, 0.5, 4.0, F::other, A::nothing, false, {}, {B::pad, B::keys}},
     {K::help_menu, "help_menu", P::text, 0.5, 8.0},
     {K::around_nothing, "around_nothing", P::text, 0.5, 4.0},
     {K::welcome, "welcome", P::notification, 5.0, 10.0},
@@ -355,12 +243,6 @@ inline constexpr std::size_t kCueKinds = std::size(cue_table::kRows);
 }
 [[nodiscard]] constexpr CueFamily family_of(CueKind kind) { return traits(kind).family; }
 
-[[nodiscard]] constexpr std::array<const char*, kCueKinds> names(CueKind) {
-  std::array<const char*, kCueKinds> words{};
-  for (std::size_t i = 0; i < kCueKinds; ++i) words[i] = cue_table::kRows[i].word;
-  return words;
-}
-
 /// The rows stand in the order of the kinds, and none is missing.
 [[nodiscard]] constexpr bool rows_are_in_order() {
   for (std::size_t i = 0; i < kCueKinds; ++i)
@@ -373,9 +255,41 @@ static_assert(rows_are_in_order(), "each CueKind needs its row of kRows, in the 
 [[nodiscard]] constexpr bool is_way(CueFamily family) {
   return family == CueFamily::way || family == CueFamily::route;
 }
-/// A thing within reach, of either family.
-[[nodiscard]] constexpr bool is_near(CueFamily family) {
-  return family == CueFamily::near || family == CueFamily::close;
+/// A thing within reach.
+[[nodiscard]] constexpr bool is_near(CueKind kind) {
+  return kind == CueKind::near || kind == CueKind::close;
 }
+
+/// A sentence without its fillings: two that differ in what they are about are two, also to rules
+/// that keep one of a kind. Compared with a kind alone, it is any sentence of that kind.
+struct Content {
+  // NOLINTNEXTLINE(google-explicit-constructor): most kinds have one sentence
+  constexpr Content(CueKind of = CueKind::lesson, About what = About::none)
+      : kind(of), about(what) {}
+  CueKind kind;
+  About about;
+
+  [[nodiscard]] friend constexpr bool operator==(const Content& a, const Content& b) {
+    return a.kind == b.kind && a.about == b.about;
+  }
+  [[nodiscard]] friend constexpr bool operator!=(const Content& a, const Content& b) {
+    return !(a == b);
+  }
+  [[nodiscard]] friend constexpr bool operator<(const Content& a, const Content& b) {
+    return a.kind != b.kind ? a.kind < b.kind : a.about < b.about;
+  }
+  [[nodiscard]] friend constexpr bool operator==(const Content& a, CueKind b) { return a.kind == b; }
+  [[nodiscard]] friend constexpr bool operator!=(const Content& a, CueKind b) { return a.kind != b; }
+};
+
+/// All that the guide says, without lessons.
+[[nodiscard]] std::vector<Content> contents();
+
+/// In messages, phrases and records: the kind's word with what the sentence is about, such as
+/// "shelf_near"; or "near", for all that it may be about.
+[[nodiscard]] std::string to_string(const Content& content);
+/// The inverse.
+template <>
+[[nodiscard]] std::optional<Content> from_word<Content>(const std::string& word);
 
 }  // namespace navvi_types

@@ -73,9 +73,9 @@ class Guide {
   void use(const GuideConfig& config);
 
   /// To be said once, with the next beat.
-  void announce(navvi_types::CueKind kind);
+  void announce(const navvi_types::Content& content);
   /// The trial is over. \param words  that say so, unless the arrival does
-  void end_trial(std::optional<navvi_types::CueKind> words);
+  void end_trial(std::optional<navvi_types::Content> words);
 
   /// One beat, at 50 Hz.
   /// \return nullopt while messages that have waited for a halted program are still to be taken

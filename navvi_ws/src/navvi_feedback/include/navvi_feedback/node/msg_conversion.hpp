@@ -14,6 +14,8 @@
 
 namespace navvi_feedback::node {
 
+using navvi_types::About;
+using navvi_types::Content;
 using navvi_types::CueKind;
 
 /// Axes out of [-1, 1] by more than rounding, or fewer than two, are rejected.
@@ -26,6 +28,6 @@ using navvi_types::CueKind;
                                                          const std::string& driver = "joy_node");
 /// The kind of cue that tells the person of the end of a trial; nullopt if none has ended, or the
 /// arrival or the refusal of the goal tells it.
-[[nodiscard]] std::optional<CueKind> last_words(const navvi_msgs::TrialEvent& msg);
+[[nodiscard]] std::optional<Content> last_words(const navvi_msgs::TrialEvent& msg);
 
 }  // namespace navvi_feedback::node

@@ -28,7 +28,7 @@ struct Devices {
   bool speaking = false;                     ///< the voice still speaks the last text
   std::optional<navvi_types::Pose2> robot;   ///< base_link in map, if known
   std::vector<drive::Button> asked;          ///< by other means than the hands, since the last beat
-  std::vector<navvi_types::CueKind> states;  ///< said when they begin, such as no_rumble
+  std::vector<navvi_types::Content> states;  ///< said when they begin, such as no_rumble
   std::string person;                        ///< whose settings are used, if anybody's
 };
 

@@ -12,6 +12,7 @@
 #include "navvi_people/people/heard.hpp"
 #include "navvi_people/people/instruction.hpp"
 #include "navvi_people/people/mind.hpp"
+#include "navvi_people/people/situation.hpp"
 #include "navvi_people/people/tracking.hpp"
 
 namespace navvi_people::people {
@@ -30,8 +31,6 @@ struct SimulatedOperatorConfig {
   MemoryConfig memory;
   AttentionConfig attention;
   LearningConfig learning;
-  /// m, driven on without a word after a turn that a sound has ended; assumed
-  static constexpr double kTrust = 10.0;
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -63,87 +62,33 @@ class SimulatedOperator {
 
   /// What it makes of a sentence.
   [[nodiscard]] const Listener& listener() const { return ears_.listener(); }
-  [[nodiscard]] bool arrived() const { return mode_ == Mode::arrived; }
+  [[nodiscard]] bool arrived() const { return now_.mode == Mode::arrived; }
   [[nodiscard]] bool gave_up() const { return attention_.gave_up(); }
 
  private:
-  static constexpr double kNearTheEnd = 1.5;   ///< m to where one expects to stop
-  static constexpr double kListenFirst = 2.5;  ///< m, likewise
-
-  enum class Mode { waiting, turning, driving, backing, arrived };
-  /// The ticks, or the motor, that tell to turn.
-  struct Ticks {
-    Instruction::Side side = Instruction::Side::none;
-    double last = 0.0;  ///< s
-    bool much = true;   ///< is left to turn
-  };
-
-  /// What the guide's words left behind.
-  struct Words {
-    std::optional<double> waits;  ///< s, since when for "go on"
-    bool told_to_halt = false;
-    bool spoken_to = false;
-  };
-  struct Sounds {
-    std::optional<Ticks> ticks;
-    double turned = -1e9;  ///< s, when they last led a turn
-  };
-  struct Course {
-    double target = 0.0;           ///< rad, heading to hold
-    double stop_at = 0.0;          ///< m on the odometer: further is guessing
-    bool straight_before = false;  ///< the last direction that was followed was 12
-    double speed = 0.0;            ///< stick
-    double turn_speed = 0.0;
-    double veer = 0.0;  ///< rad, added to the target
-    double veer_until = 0.0;
-  };
-  struct Backing {
-    double until = 0.0;
-    bool other_side = false;
-  };
-  /// s, on the clock of update().
-  struct Moments {
-    bool started = false;
-    double start = 0.0;
-    double news = 0.0;  ///< the last
-    double asked = -1e9;
-    double shown = -1e9;  ///< what leads all the time, last
-    double pressed = -1e9;  ///< start
-    double bumped = -1e9;
-    double careful_until = 0.0;
-  };
-  /// The last turn by words.
-  struct Turned {
-    std::optional<double> to;  ///< rad, clockwise
-    double at = -1e9;          ///< s
-  };
+  using Mode = Situation::Mode;
+  /// \return nullopt: the next one decides
+  using Rule = std::optional<StickAndButtons> (SimulatedOperator::*)(double time, double dt);
 
   void hear_words(const Speech& speech, double time);
-  void touch(double time);
-  void react(Meaning meaning, double time);
-  void react(const Tone& tone, double time);
-  void follow_tick(const Tone& tick, double time);
-  void stop_turn(double time);
-  [[nodiscard]] StickAndButtons turn_by_ear(double time) const;
   void understood(std::uint32_t id, double time);
+  void touch(double time);
+  void react_to_what_is_due(double time);
   void react(const Sentence& sentence, double time);
-  void obey(const Sentence& sentence, const Instruction& instruction, double time);
-  void turn_to(const Sentence& sentence, const Instruction& instruction, double time);
-  void go_for(const Sentence& sentence, const Instruction& instruction);
-  void expect_turn(const Sentence& sentence, const Instruction& turn);
-  void veer(Instruction::Side side, double angle, double until);
+  void react(const Tone& tone, double time);
+  void react(Meaning meaning, double time);
+  void obey(const Sentence& sentence, const Instruction& told, double time);
+  void turn_to(const Sentence& sentence, const Instruction& told, double time);
+  void be_startled(double time);
   [[nodiscard]] StickAndButtons act(double time, double dt);
   [[nodiscard]] std::optional<StickAndButtons> follow_display(double time, double dt);
-  [[nodiscard]] StickAndButtons drive(double time) const;
-  void shy_away(const Instruction& instruction, double time);
-  void be_startled(double time);
-  void wait_for_go_on(const Sentence& sentence, bool holds);
-  void back_off(Instruction::Side side, double time);
-  void ask_soon(double time);
-  void press_start(double time);
-  void go_ahead();
+  [[nodiscard]] std::optional<StickAndButtons> wait(double time, double dt);
+  [[nodiscard]] std::optional<StickAndButtons> follow_ticks(double time, double dt);
+  [[nodiscard]] std::optional<StickAndButtons> turn(double time, double dt);
+  [[nodiscard]] std::optional<StickAndButtons> drive(double time, double dt);
+  [[nodiscard]] std::optional<StickAndButtons> try_ahead(double time, double dt);
+  [[nodiscard]] std::optional<StickAndButtons> back(double time, double dt);
   void ask_when_lost(double time);
-  void react_to_what_is_due(double time);
   void believe(const StickAndButtons& hand, double dt);
 
   SimulatedOperatorConfig config_;
@@ -154,19 +99,12 @@ class SimulatedOperator {
   Feeling feeling_;
   Memory memory_;
   Attention attention_;
-  Mode mode_ = Mode::waiting;
-  Words words_;
-  Sounds sounds_;
-  Belief at_;
-  Course course_;
-  Backing backing_;
-  Moments when_;
-  Felt felt_;  ///< now
-  Turned turned_;
   Tracking tracking_;  ///< of what is shown all the time
   Pulses pulses_;
+  Situation now_;
+  Felt felt_;                ///< now
   std::optional<Aim> flow_;  ///< that sounds
-  StickAndButtons held_;  ///< by that, last
+  StickAndButtons held_;     ///< by what is shown all the time, last
 };
 
 }  // namespace navvi_people::people
