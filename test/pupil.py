@@ -72,7 +72,7 @@ class Pupil(Hands):
             leads = max(left, right) > 0.0
             last = time.monotonic() if leads else last
             lean = (left - right) / (left + right) if leads else 0.0
-            self.steer(lean, 0.6 if leads and abs(lean) < 0.9 else 0.0)
+            self.steer(0.4 * lean if step == "by_hand" else lean, 0.6 if leads and abs(lean) < 0.9 else 0.0)
             time.sleep(0.05)
 
     def glossary(self, signals=99):

@@ -89,7 +89,9 @@ class FollowExercise : public Exercise {
       arrived_ = true;
       return now.settled() ? Verdict{true} : Verdict{};
     }
-    if (arrived_ || left.norm() > 1.5 * kWay) return {false, "place"};
+    if (!begun_) begun_ = now.time;
+    if (arrived_ || left.norm() > 1.5 * kWay || now.time - *begun_ > kPatience)
+      return {false, "place"};
     const double off =
         navvi_types::wrap(-std::atan2(left.y(), left.x()) + now.moved.turned);
     const double speed = std::max(0.0, 0.5 * (1.0 - std::abs(off) / lead::kOnTheSpot));
@@ -100,8 +102,10 @@ class FollowExercise : public Exercise {
  private:
   static constexpr double kWay = 1.5;    // m
   static constexpr double kThere = 0.4;  // m
+  static constexpr double kPatience = 40.0;  // s
   Lead lead_;
   Eigen::Vector2d place_;  ///< m, in base_link as it was at first
+  std::optional<double> begun_;  ///< s
   bool arrived_ = false;
 };
 

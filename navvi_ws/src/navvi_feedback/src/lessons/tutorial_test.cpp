@@ -273,6 +273,8 @@ TEST_F(TutorialTest, knows_each_way_to_go_wrong) {
        {{"side", [this](double) { seen_.stick.x = 0.5; }},
         {"too_little", [this](double t) { seen_.stick.x = t < 1.0 ? -0.5 : 0.0; }},
         {"driven", [this](double) { seen_.stick.y = 1.0; }}}},
+      {"by_hand",
+       {{"place", [this](double t) { seen_.stick.x = std::fmod(t, 2.0) < 1.0 ? 1.0 : -1.0; }}}},
       {"near_right", {{"was_right", [this](double t) { seen_.stick.x = t > 0.5 ? 1.0 : 0.0; }}}},
       {"near_left", {{"was_left", [this](double t) { seen_.stick.y = t > 0.5 ? 1.0 : 0.0; }}}},
       {"near_ahead", {{"was_ahead", [this](double t) { seen_.stick.x = t > 0.5 ? 1.0 : 0.0; }}}},
@@ -285,7 +287,7 @@ TEST_F(TutorialTest, knows_each_way_to_go_wrong) {
       hands_[step] = [this, well, ill, before](double t) { tries_ == before ? ill(t) : well(t); };
       for (; time_ < 5000.0 && step_ != step; time_ += 0.02) tick();
       const auto count_before = count("wrong_" + name);
-      for (const double end = time_ + 30.0; time_ < end && step_ == step; time_ += 0.02) tick();
+      for (const double end = time_ + 60.0; time_ < end && step_ == step; time_ += 0.02) tick();
       EXPECT_GT(count("wrong_" + name), count_before) << step;
       EXPECT_NE(step_, step) << "and then passed";
       hands_[step] = well;
