@@ -288,9 +288,13 @@ class Dresser {
     band(-half, 0.05 - half, vision_.dark);
     band(0.05 - half, half - 0.05, scaled(fill(marker), 0.85F));
     band(half - 0.05, half, vision_.dark);
-    for (int i = 0; i < kCorners; ++i)
-      add_triangle({point(0.0, 0.0, half), at(i, radius, half), at(i + 1, radius, half)},
-                   fill(marker), list);
+    const double lid = radius - 0.04;
+    for (int i = 0; i < kCorners; ++i) {
+      add_triangle({point(0.0, 0.0, half), at(i, lid, half), at(i + 1, lid, half)}, fill(marker),
+                   list);
+      add_quad({at(i, lid, half), at(i, radius, half), at(i + 1, radius, half), at(i + 1, lid, half)},
+               vision_.dark, list);
+    }
     return list;
   }
 

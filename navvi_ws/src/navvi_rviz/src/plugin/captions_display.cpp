@@ -1,6 +1,7 @@
 #include "plugin/captions_display.hpp"
 
 #include <OgreCamera.h>
+#include <OgreRenderTarget.h>
 #include <OgreRoot.h>
 #include <OgreViewport.h>
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -24,6 +25,7 @@
 
 #include "look/skyline.hpp"
 #include "plugin/chosen.hpp"
+#include "plugin/markers_display.hpp"
 #include "plugin/paint.hpp"
 
 namespace navvi_rviz::plugin {
@@ -36,6 +38,7 @@ constexpr double kMargin = 3.0;          // m, around what the view from above h
 constexpr double kRobot = 0.3;           // m, half of what plates leave free of the robot
 constexpr double kPiece = 0.8;           // m, of the path, in which plates leave it free
 constexpr double kNextWay = 3.5;   // m, around the robot, in which plates never cover the path
+constexpr double kSeldom = 0.2;    // s, between two pictures where nothing is known to change
 constexpr double kTell = 1.0;      // s, between two words on its rate
 constexpr double kHurry = 8.0;     // m, around it, in which what moves moves the banner
 constexpr double kNear = 0.3;      // m, before the camera
@@ -204,7 +207,20 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
   taken.always.insert(taken.always.end(), others.always.begin(), others.always.end());
   if (pose) show_way(*pose, picture, taken);
   show_labels(picture, taken);
+  draw_if_changed(*context_->getViewManager()->getCurrent()->getCamera());
   tell_rate();
+}
+
+void CaptionsDisplay::draw_if_changed(const Ogre::Camera& camera) {
+  Drawn now{camera.getViewMatrix(), camera.getProjectionMatrix(), MarkersDisplay::changes(), {}};
+  for (const auto& [name, entry] : plates_) now.plates += name + entry.key + entry.plate->shown();
+  const ros::SteadyTime time = ros::SteadyTime::now();
+  const bool due = !(now == drawn_) || (time - drawn_at_).toSec() >= kSeldom;
+  camera.getViewport()->getTarget()->setAutoUpdated(due);
+  if (!due) return;
+  drawn_ = std::move(now);
+  drawn_at_ = time;
+  ++cost_.drawn;
 }
 
 bool CaptionsDisplay::frameStarted(const Ogre::FrameEvent& /*event*/) {
@@ -214,7 +230,6 @@ bool CaptionsDisplay::frameStarted(const Ogre::FrameEvent& /*event*/) {
 
 bool CaptionsDisplay::frameEnded(const Ogre::FrameEvent& /*event*/) {
   cost_.used += std::clock() - begun_;
-  ++cost_.drawn;
   return true;
 }
 

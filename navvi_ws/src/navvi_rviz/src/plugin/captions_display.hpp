@@ -1,6 +1,7 @@
 #pragma once
 
 #include <OgreFrameListener.h>
+#include <OgreMatrix4.h>
 #include <rviz/display.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -109,6 +110,8 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   bool frameEnded(const Ogre::FrameEvent& event) override;
   /// Once a second, in /diagnostics: how often the picture is drawn, and what that costs.
   void tell_rate();
+  /// Has the window drawn, if anything in it has changed, or might have.
+  void draw_if_changed(const Ogre::Camera& camera);
 
   std::unique_ptr<Reader> reader_;
   ros::Publisher diagnostics_;
@@ -118,6 +121,16 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
     ros::SteadyTime since;    ///< that time
   } cost_;
   std::clock_t begun_ = 0;  ///< the picture that is drawn
+  struct Drawn {
+    Ogre::Matrix4 view, lens;
+    unsigned changes = 0;
+    std::string plates;
+    [[nodiscard]] bool operator==(const Drawn& other) const {
+      return view == other.view && lens == other.lens && changes == other.changes &&
+             plates == other.plates;
+    }
+  } drawn_;
+  ros::SteadyTime drawn_at_;
   bool first_ = true;  ///< nothing was drawn yet
   int height_ = 26;    ///< px, of capital letters
   std::optional<Eigen::Vector2d> start_,

@@ -12,6 +12,7 @@
 #include <QPointer>
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <utility>
 
 #include "look/dress.hpp"
 #include "plugin/chosen.hpp"
@@ -46,6 +47,7 @@ void MarkersDisplay::onInitialize() {
     unsubscribe();
     reset();
     clear();
+    last_ = {};
     subscribe();
   });
 }
@@ -60,8 +62,13 @@ void MarkersDisplay::subscribe() {
 void MarkersDisplay::unsubscribe() { array_sub_.shutdown(); }
 
 void MarkersDisplay::take(const MarkerArray::ConstPtr& markers) {
+  MarkerArray now = *markers;
+  for (auto& marker : now.markers) marker.header.stamp = ros::Time();
+  if (now.markers == last_.markers) return;
+  ++changes_;
+  last_ = std::move(now);
   const auto others = boost::make_shared<MarkerArray>();
-  const MarkerArray dressed = look::dress(*markers, Chosen::shared().vision());
+  const MarkerArray dressed = look::dress(last_, Chosen::shared().vision());
   const auto stands = [](const auto& marker) { return marker.ns == look::kStanding; };
   if (std::any_of(dressed.markers.begin(), dressed.markers.end(), stands)) clear();
   for (const auto& marker : dressed.markers)

@@ -13,6 +13,8 @@ class MarkersDisplay : public rviz::MarkerDisplay {
   ~MarkersDisplay() override;
   void onInitialize() override;
   void update(float wall_dt, float ros_dt) override;
+  /// How often what is drawn has changed, of all these displays.
+  [[nodiscard]] static unsigned changes() { return changes_; }
 
  protected:
   void subscribe() override;
@@ -24,6 +26,8 @@ class MarkersDisplay : public rviz::MarkerDisplay {
   void draw(const visualization_msgs::Marker& list);
   void clear();
 
+  static inline unsigned changes_ = 0;
+  visualization_msgs::MarkerArray last_;  ///< without times
   Ogre::SceneNode* standing_ = nullptr;  ///< map
 };
 
