@@ -31,7 +31,7 @@ from navvi_cli.worlds import check_name
 
 
 # Programs that a script runs, besides those of a session.
-NEEDS = {"study/paper_bench": ["trials_bench"]}
+NEEDS = {"study/paper_bench": ["trials_bench"], "rviz/picture_bench": ["navvi_rviz"]}
 
 
 def benchmarks():

@@ -141,7 +141,8 @@ class Dresser {
     Tiles tiles;
     for (const Marker& marker : markers.markers) {
       if (marker.action == Marker::ADD && marker.type == Marker::TEXT_VIEW_FACING) continue;
-      if (marker.action == Marker::ADD && marker.type == Marker::CUBE_LIST && cubes_ < kVeryMany)
+      if (marker.action == Marker::ADD && marker.type == Marker::CUBE_LIST && cubes_ < kVeryMany &&
+          knows(marker))
         add_boxes(marker, tiles);
       else
         array.markers.push_back(dress(marker));
@@ -164,7 +165,11 @@ class Dresser {
     if (marker.ns == "stop") return ring(marker);
     if (marker.ns == "turn") return arrow(marker);
     if (marker.ns == "robot" && marker.type == Marker::CYLINDER) return robot(marker);
-    return recolored(marker);
+    return knows(marker) ? recolored(marker) : marker;
+  }
+
+  [[nodiscard]] bool knows(const Marker& marker) const {
+    return vision_.fill.count(marker.ns) > 0;
   }
 
   [[nodiscard]] Color fill(const Marker& marker) const {

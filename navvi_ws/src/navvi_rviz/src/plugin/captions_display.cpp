@@ -43,6 +43,8 @@ constexpr double kTell = 1.0;      // s, between two words on its rate
 constexpr double kHurry = 8.0;     // m, around it, in which what moves moves the banner
 constexpr double kNear = 0.3;      // m, before the camera
 constexpr double kBanner = 0.115;  // of the picture's height: the banner's letters at most
+constexpr double kLeastShare = 0.6;  // of that, where it has no room
+constexpr double kFar = 0.6;       // of the picture's height, from a place to its plate at most
 constexpr double kArrow = 0.2;     // of the picture's height: the arrow at its edge at most
 constexpr double kLargest = 60.0;  // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
@@ -264,9 +266,12 @@ const CaptionsDisplay::Mover* CaptionsDisplay::threat(const status::Shown& shown
   const auto away = [&](const Mover& mover) {
     return (mover.place.center().head<2>() - place).norm();
   };
-  for (const Mover& mover : movers_)
-    if (mover.thing_class == shown.mover && (nearest == nullptr || away(mover) < away(*nearest)))
-      nearest = &mover;
+  for (const Mover& mover : movers_) {
+    // Who guides may not know the class of what the picture knows.
+    const bool meant =
+        mover.thing_class == shown.mover || shown.mover == navvi_types::ThingClass::other;
+    if (meant && (nearest == nullptr || away(mover) < away(*nearest))) nearest = &mover;
+  }
   return nearest;
 }
 
@@ -293,7 +298,9 @@ void CaptionsDisplay::show_banner(const status::Shown& shown, const Eigen::Vecto
                                   screen::Taken& taken) {
   if (shown.banner.empty()) return;
   const bool inverted = shown.tone == status::Shown::Tone::alarm;
+  if (banner_.text != shown.banner) banner_ = {shown.banner, 1.0};
   int large = static_cast<int>(
+      banner_.share *
       std::min(2.0 * height_, std::max(kBanner * picture.y(), static_cast<double>(kLeastText))));
   Plate* plate = &words("banner", shown.banner, large, inverted);
   const double width = size_of(*plate).x();
@@ -304,10 +311,11 @@ void CaptionsDisplay::show_banner(const status::Shown& shown, const Eigen::Vecto
   const Eigen::Vector2d size = size_of(*plate);
   const Eigen::Vector2d usual(0.5 * picture.x(), size.y() + 20.0);
   std::optional<Eigen::Vector2d>& before = plates_.at("banner").place;
+  const auto room = screen::place({{usual, size, before}}, picture, {taken.always, {}})[0];
+  if (!room) banner_.share = std::max(kLeastShare, 0.85 * banner_.share);
   // What must not be missed is shown, whatever it covers.
   const Eigen::Vector2d corner =
-      screen::place({{usual, size, before}}, picture, {taken.always, {}})[0].value_or(
-          Eigen::Vector2d(0.5 * (picture.x() - size.x()), 10.0));
+      room.value_or(Eigen::Vector2d(0.5 * (picture.x() - size.x()), 10.0));
   before = corner - usual;
   plate->show(corner.x(), corner.y());
   taken.always.emplace_back(corner, corner + size);
@@ -367,6 +375,9 @@ void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture, const screen::
     if (!corners[i]) continue;
     plates[i]->plate->show(corners[i]->x(), corners[i]->y());
     plates[i]->place = *corners[i] - wanted[i].anchor;
+    // Far from its place, it would seem to name another.
+    if ((*plates[i]->place + 0.5 * wanted[i].size).norm() > kFar * picture.y())
+      plates[i]->plate->hide();
   }
 }
 

@@ -116,6 +116,10 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   std::unique_ptr<Reader> reader_;
   ros::Publisher diagnostics_;
   struct {
+    std::string text;
+    double share = 1.0;  ///< of its largest letters
+  } banner_;
+  struct {
     int drawn = 0;            ///< pictures
     std::clock_t used = 0;    ///< by this process, all threads, while it drew them
     ros::SteadyTime since;    ///< that time
