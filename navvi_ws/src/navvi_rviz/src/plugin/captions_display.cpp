@@ -312,7 +312,9 @@ void CaptionsDisplay::show_banner(const status::Shown& shown, const Eigen::Vecto
   const Eigen::Vector2d usual(0.5 * picture.x(), size.y() + 20.0);
   std::optional<Eigen::Vector2d>& before = plates_.at("banner").place;
   const auto room = screen::place({{usual, size, before}}, picture, {taken.always, {}})[0];
-  if (!room) banner_.share = std::max(kLeastShare, 0.85 * banner_.share);
+  // For whom letters cannot be too large they stay.
+  if (!room && Chosen::shared().vision().text_height <= kLeastText)
+    banner_.share = std::max(kLeastShare, 0.85 * banner_.share);
   // What must not be missed is shown, whatever it covers.
   const Eigen::Vector2d corner =
       room.value_or(Eigen::Vector2d(0.5 * (picture.x() - size.x()), 10.0));
