@@ -445,7 +445,8 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   for (const Eigen::Vector3d& place : path_) all.extend(place.head<2>());
   const Eigen::Vector2d room = all.sizes() + Eigen::Vector2d::Constant(2.0 * kMargin);
   const double banner = std::min(5.0 * height_, 0.3 * picture.y());  // px, above all that
-  const Eigen::Array2d free(picture.x(), picture.y() - banner);
+  const double symbol = 3.0 * height_;  // px, of the robot's
+  const Eigen::Array2d free(picture.x() - symbol, picture.y() - banner - symbol);
   const double scale = std::min(kLargest, (free / room.array()).minCoeff());
   rviz::ViewController* view = context_->getViewManager()->getCurrent();
   view->subProp("X")->setValue(all.center().x());

@@ -105,7 +105,7 @@ QImage paint_robot(double angle, int size, const look::Vision& vision) {
     painter.setPen(Qt::NoPen);
     painter.setBrush(color(vision.dark));
     painter.drawPolygon(
-        QPolygonF({{0.85 * s, 0.0}, {-0.5 * s, 0.65 * s}, {-0.5 * s, -0.65 * s}}));
+        QPolygonF({{0.9 * s, 0.0}, {-0.6 * s, 0.55 * s}, {-0.3 * s, 0.0}, {-0.6 * s, -0.55 * s}}));
   });
 }
 
