@@ -318,6 +318,29 @@ def test_no_plate_lies_over_the_goal_what_moves_or_is_stumbled_over(desk, tmp_pa
     desk.press("1")
 
 
+@pytest.mark.parametrize("view, x", [("1", 30.0), ("3", -4.0)])
+def test_who_the_banner_warns_of_is_pointed_to(desk, tmp_path, view, x):
+    from geometry_msgs.msg import Vector3
+    sight = (10, 40, 1910, 775)
+    set_state(desk, "RUNNING")
+    desk.press(view)
+    desk.show(THINGS)
+    desk.move([])
+    order(desk, "wait, forklift in the way", "blocked")
+    time.sleep(1)
+    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
+    desk.move([("forklift", x, -4.0, Vector3(2.4, 1.0, 2.1)), ("worker", 2.0, 0.0, Vector3(0.5, 0.5, 1.8))])
+    time.sleep(8 if view == "1" else 1)  # the view goes back until it sees them, or as far as it does
+    pointed = numpy.asarray(desk.shot(tmp_path / "pointed.png", sight), dtype=int)
+    order(desk)
+    desk.show(THINGS)
+    time.sleep(5)
+    assert (abs(pointed - bare).max(axis=2) > 30).sum() > 5000
+    white = (pointed.min(axis=2) > 250) & (bare.max(axis=2) < 250)
+    assert white.sum() > 3000, "the name stands on a bright plate"
+    desk.press("1")
+
+
 # --- how large letters are
 
 def glyph(image, number=0):
@@ -378,3 +401,4 @@ def test_letters_are_large_and_twice_as_large_for_who_wants_that(desk, tmp_path)
     print("large", large)
     assert min(large.values()) >= LEAST
     assert all(large[part] >= 2 * LEAST for part in ("instruction", "plate", "banner"))
+    assert min(large.values()) >= 1.3 * LEAST, "buttons, too"

@@ -87,7 +87,9 @@ class Picture:
         frames.publish(TFMessage(transforms))
         self.topics = {name: rospy.Publisher(name, MarkerArray, queue_size=10, latch=True)
                        for name in ("/navvi/scene", "/navvi/scene_moving", "/navvi/markers")}
+        from navvi_msgs.msg import Obstacles
         self.frames = frames
+        self.obstacles = rospy.Publisher("/navvi/obstacles", Obstacles, queue_size=1, latch=True)
         if self.filled:
             self.show(THINGS)
         self.processes.append(subprocess.Popen(["roslaunch", str(ROOT / "launch/picture.launch"), f"vision:={vision}", f"view:={view}", *self.words],
@@ -144,6 +146,20 @@ class Picture:
                 if marker.ns in THINGS and marker.ns not in things:
                     marker.action = self.Marker.DELETE
             self.topics[topic].publish(markers)
+        self.move([(m.ns, m.pose.position.x, m.pose.position.y, m.scale) for m in self.scene()["/navvi/scene_moving"]
+                   if m.ns in things and m.ns != "robot"])
+
+    def move(self, movers):
+        """What moves, as the guide knows it: class, place in m, size in m."""
+        import rospy
+        from navvi_msgs.msg import Obstacle, Obstacles
+        message = Obstacles()
+        message.header.frame_id, message.header.stamp = "map", rospy.Time.now()
+        for i, (kind, x, y, size) in enumerate(movers):
+            mover = Obstacle(id=i, thing_class=kind, length=size.x, width=size.y, height=size.z, radius=float(numpy.hypot(size.x, size.y)) / 2)
+            mover.pose.position, mover.pose.orientation.w = self.Point(x, y, 0), 1.0
+            message.obstacles.append(mover)
+        self.obstacles.publish(message)
 
     def shot(self, path, box):
         """What is in `box` (px) of the screen once it has come to rest."""

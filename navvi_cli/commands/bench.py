@@ -4,7 +4,7 @@ The sim and nav benchmarks print ratios to a plain use of the same library in
 the same run. nav takes --maps for maps alone, --resolution=0.05 and
 --largest=100 (m). build times what a newcomer waits for, in a clone of its own
 and without the compiler's cache. latency [--rounds=100] times what a person
-waits for, with nodes as they run live.
+waits for, with nodes as they run live. picture measures what RViz costs.
 paper [--seeds=1-6] [--world=busy] [TRIAL] prints what the paper prints, with
 NavVI's own beside it, and why some of it cannot be repeated.
 
@@ -31,7 +31,7 @@ from navvi_cli.worlds import check_name
 
 
 # Programs that a script runs, besides those of a session.
-NEEDS = {"study/paper_bench": ["trials_bench"]}
+NEEDS = {"study/paper_bench": ["trials_bench"], "rviz/picture_bench": ["navvi_rviz"]}
 
 
 def benchmarks():

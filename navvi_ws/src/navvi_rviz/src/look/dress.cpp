@@ -2,19 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <navvi_types/angles.hpp>
 #include <optional>
+#include <utility>
 
 namespace navvi_rviz::look {
 namespace {
 
 using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
 
 constexpr std::size_t kVeryMany = 20000;  // cubes; so many are left as RViz draws them
 constexpr double kLayer = 0.01;           // m, of a colour over the one it covers
 constexpr double kHeight = 0.03;          // m, of the path above the floor
 constexpr double kEdge = 0.08;            // m, of each of the two edges of path, goal and turn
 constexpr double kThin = 0.04;            // m, of the edge of a box
+constexpr double kTile = 8.0;             // m, of the hall, that is drawn or left out as one
+constexpr double kBelow = 1.0;            // m; a lower underside is not seen
 
 geometry_msgs::Point point(double x, double y, double z) {
   geometry_msgs::Point msg;
@@ -107,7 +112,7 @@ Marker with_edges(const Marker& marker, const Frame& edge) {
   return list;
 }
 
-/// The six faces of a box along the axes.
+/// The faces of a box along the axes, without that on the floor.
 void add_box(const Eigen::Vector3d& middle, const Eigen::Vector3d& size,
              const std::vector<Frame>& frames, const Color& top, const Color& side, Marker& list) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -116,6 +121,8 @@ void add_box(const Eigen::Vector3d& middle, const Eigen::Vector3d& size,
       out[axis] = half * size[axis];
       u[(axis + 1) % 3] = 0.5 * size[(axis + 1) % 3];
       v[(axis + 2) % 3] = 0.5 * size[(axis + 2) % 3];
+      if (half < 0.0) u.swap(v);
+      if (axis == 2 && half < 0.0 && (middle + out).z() < kBelow) continue;
       const float light = axis == 0 ? 0.9F : 1.0F;
       add_face(middle + out, u, v, frames, axis == 2 ? top : scaled(side, light), list);
     }
@@ -124,10 +131,32 @@ void add_box(const Eigen::Vector3d& middle, const Eigen::Vector3d& size,
 
 class Dresser {
  public:
-  Dresser(const visualization_msgs::MarkerArray& markers, const Vision& vision) : vision_(vision) {
+  Dresser(const MarkerArray& markers, const Vision& vision) : vision_(vision) {
     for (const Marker& marker : markers.markers)
       if (marker.type == Marker::CUBE_LIST) cubes_ += marker.points.size();
   }
+
+  [[nodiscard]] MarkerArray dress(const MarkerArray& markers) const {
+    MarkerArray array;
+    Tiles tiles;
+    for (const Marker& marker : markers.markers) {
+      if (marker.action == Marker::ADD && marker.type == Marker::TEXT_VIEW_FACING) continue;
+      if (marker.action == Marker::ADD && marker.type == Marker::CUBE_LIST && cubes_ < kVeryMany &&
+          knows(marker))
+        add_boxes(marker, tiles);
+      else
+        array.markers.push_back(dress(marker));
+    }
+    for (auto& tile : tiles) {
+      tile.second.ns = kStanding;
+      tile.second.id = static_cast<int>(array.markers.size());
+      array.markers.push_back(std::move(tile.second));
+    }
+    return array;
+  }
+
+ private:
+  using Tiles = std::map<std::pair<long, long>, Marker>;
 
   [[nodiscard]] Marker dress(const Marker& marker) const {
     if (marker.action != Marker::ADD) return marker;
@@ -136,11 +165,13 @@ class Dresser {
     if (marker.ns == "stop") return ring(marker);
     if (marker.ns == "turn") return arrow(marker);
     if (marker.ns == "robot" && marker.type == Marker::CYLINDER) return robot(marker);
-    if (marker.type == Marker::CUBE_LIST && cubes_ < kVeryMany) return boxes(marker);
-    return recolored(marker);
+    return knows(marker) ? recolored(marker) : marker;
   }
 
- private:
+  [[nodiscard]] bool knows(const Marker& marker) const {
+    return vision_.fill.count(marker.ns) > 0;
+  }
+
   [[nodiscard]] Color fill(const Marker& marker) const {
     const bool line = marker.type == Marker::LINE_LIST;
     const auto found = vision_.fill.find(line ? marker.ns + " line" : marker.ns);
@@ -171,16 +202,16 @@ class Dresser {
   }
 
   /// Boards and posts are so thin that their sides are their edges.
-  [[nodiscard]] Marker boxes(const Marker& marker) const {
-    Marker list = triangles(marker);
+  void add_boxes(const Marker& marker, Tiles& tiles) const {
     const Eigen::Vector3d size(marker.scale.x, marker.scale.y, marker.scale.z);
     const std::optional<Frame> edge = this->edge(marker);
     const bool thin = edge && marker.ns == "shelf";
     const std::vector<Frame> frames = edge && !thin ? std::vector{*edge} : std::vector<Frame>{};
-    for (const geometry_msgs::Point& at : marker.points)
+    for (const geometry_msgs::Point& at : marker.points) {
+      const std::pair tile{std::lround(at.x / kTile), std::lround(at.y / kTile)};
       add_box({at.x, at.y, at.z}, size, frames, fill(marker), thin ? edge->color : fill(marker),
-              list);
-    return list;
+              tiles.try_emplace(tile, triangles(marker)).first->second);
+    }
   }
 
   /// The wide line becomes the two edges, the narrow one the ribbon between them.
@@ -262,9 +293,13 @@ class Dresser {
     band(-half, 0.05 - half, vision_.dark);
     band(0.05 - half, half - 0.05, scaled(fill(marker), 0.85F));
     band(half - 0.05, half, vision_.dark);
-    for (int i = 0; i < kCorners; ++i)
-      add_triangle({point(0.0, 0.0, half), at(i, radius, half), at(i + 1, radius, half)},
-                   fill(marker), list);
+    const double lid = radius - 0.04;
+    for (int i = 0; i < kCorners; ++i) {
+      add_triangle({point(0.0, 0.0, half), at(i, lid, half), at(i + 1, lid, half)}, fill(marker),
+                   list);
+      add_quad({at(i, lid, half), at(i, radius, half), at(i + 1, radius, half), at(i + 1, lid, half)},
+               vision_.dark, list);
+    }
     return list;
   }
 
@@ -276,12 +311,7 @@ class Dresser {
 
 visualization_msgs::MarkerArray dress(const visualization_msgs::MarkerArray& markers,
                                       const Vision& vision) {
-  const Dresser dresser(markers, vision);
-  visualization_msgs::MarkerArray array;
-  for (const Marker& marker : markers.markers)
-    if (marker.type != Marker::TEXT_VIEW_FACING || marker.action != Marker::ADD)
-      array.markers.push_back(dresser.dress(marker));
-  return array;
+  return Dresser(markers, vision).dress(markers);
 }
 
 }  // namespace navvi_rviz::look

@@ -105,6 +105,13 @@ TEST(Dress, what_is_lit_becomes_triangles_of_fixed_colours) {
   }
 }
 
+TEST(Dress, what_a_vision_does_not_name_stays_as_it_is) {
+  Marker list = marker("stands", Marker::CUBE_LIST);
+  list.points.resize(2);
+  list.color.a = 0.6F;
+  EXPECT_EQ(dressed(list), list);
+}
+
 TEST(Dress, each_face_of_a_slanting_box_gets_an_edge) {
   Marker list = marker("box", Marker::TRIANGLE_LIST);
   for (const auto& [x, y] :

@@ -1,7 +1,10 @@
 #include "plugin/captions_display.hpp"
 
 #include <OgreCamera.h>
+#include <OgreRenderTarget.h>
+#include <OgreRoot.h>
 #include <OgreViewport.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/ogre_helpers/render_system.h>
@@ -16,10 +19,13 @@
 #include <cmath>
 #include <limits>
 #include <navvi_types/angles.hpp>
+#include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/subscribe.hpp>
 #include <navvi_types/transform_listener.hpp>
 
 #include "look/skyline.hpp"
 #include "plugin/chosen.hpp"
+#include "plugin/markers_display.hpp"
 #include "plugin/paint.hpp"
 
 namespace navvi_rviz::plugin {
@@ -32,15 +38,21 @@ constexpr double kMargin = 3.0;          // m, around what the view from above h
 constexpr double kRobot = 0.3;           // m, half of what plates leave free of the robot
 constexpr double kPiece = 0.8;           // m, of the path, in which plates leave it free
 constexpr double kNextWay = 3.5;   // m, around the robot, in which plates never cover the path
+constexpr double kSeldom = 0.2;    // s, between two pictures where nothing is known to change
+constexpr double kTell = 1.0;      // s, between two words on its rate
 constexpr double kHurry = 8.0;     // m, around it, in which what moves moves the banner
 constexpr double kNear = 0.3;      // m, before the camera
 constexpr double kBanner = 0.115;  // of the picture's height: the banner's letters at most
+constexpr double kLeastShare = 0.6;  // of that, where it has no room
+constexpr double kFar = 0.6;       // of the picture's height, from a place to its plate at most
 constexpr double kArrow = 0.2;     // of the picture's height: the arrow at its edge at most
 constexpr double kLargest = 60.0;  // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
 // Of its distance, by which RViz lifts its follower across its axis.
 constexpr double kLift = 0.2;
 constexpr double kUp = 1.0, kDown = 0.25;  // rad/s, of its turns
+constexpr double kUsual = 9.0, kFarthest = 16.0;  // m, of its distance
+constexpr double kOut = 8.0, kIn = 2.0;           // m/s, by which that grows and shrinks
 
 Eigen::Vector2d size_of(const Plate& plate) {
   return {plate.size().width(), plate.size().height()};
@@ -56,15 +68,29 @@ Eigen::AlignedBox3d whole(const visualization_msgs::Marker& marker) {
   return all;
 }
 
+Eigen::AlignedBox3d box_of(const navvi_types::MovingThing& thing) {
+  Eigen::Vector2d half = Eigen::Vector2d::Constant(thing.radius);
+  if (thing.length > 0.0) {
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(thing.pose.yaw).matrix().cwiseAbs();
+    half = 0.5 * turn * Eigen::Vector2d(thing.length, thing.width);
+  }
+  const Eigen::Vector2d low = thing.pose.position - half, high = thing.pose.position + half;
+  return {Eigen::Vector3d(low.x(), low.y(), thing.floor),
+          Eigen::Vector3d(high.x(), high.y(), thing.floor + thing.height)};
+}
+
 }  // namespace
 
-CaptionsDisplay::~CaptionsDisplay() = default;
+CaptionsDisplay::~CaptionsDisplay() { Ogre::Root::getSingleton().removeFrameListener(this); }
 
 void CaptionsDisplay::onInitialize() {
   rviz::RenderSystem::get()->prepareOverlays(context_->getSceneManager());
   if (auto* window = context_->getWindowManager())
     window->getParentWindow()->installEventFilter(this);
   reader_ = std::make_unique<Reader>();
+  cost_.since = ros::SteadyTime::now();
+  Ogre::Root::getSingleton().addFrameListener(this);
+  diagnostics_ = update_nh_.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 1);
   using visualization_msgs::MarkerArray;
   markers_ = update_nh_.subscribe<MarkerArray>(
       "navvi/markers", 1, [this](const MarkerArray::ConstPtr& msg) { take(*msg); });
@@ -76,12 +102,13 @@ void CaptionsDisplay::onInitialize() {
           if (marker.ns == "pedestal")
             for (const auto& solid : look::solids(marker)) pedestals_.push_back(solid);
       });
-  moving_scene_ = update_nh_.subscribe<MarkerArray>("navvi/scene_moving", 1,
-                                                    [this](const MarkerArray::ConstPtr& msg) {
-                                                      movers_.clear();
-                                                      for (const auto& marker : msg->markers)
-                                                        movers_.push_back(whole(marker));
-                                                    });
+  obstacles_ = navvi_types::subscribe<navvi_msgs::Obstacles>(
+      update_nh_, "navvi/obstacles", 1, navvi_types::from_msg,
+      [this](const navvi_types::Obstacles& obstacles) {
+        movers_.clear();
+        for (const auto& thing : obstacles.things)
+          movers_.push_back({thing.thing_class, box_of(thing)});
+      });
 }
 
 bool CaptionsDisplay::eventFilter(QObject* window, QEvent* event) {
@@ -171,23 +198,109 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
                 QString::fromStdString(ros::param::param<std::string>("~view", "chase")));
   onDisable();
   const auto pose = robot();
+  const status::Shown shown = reader_->shown();
+  const Mover* const threat = pose ? this->threat(shown, *pose) : nullptr;
+  if (pose) show_from_behind(*pose, threat, picture, static_cast<double>(wall_dt));
   screen::Taken taken = things(pose, kHurry, picture);
-  if (pose) {
-    show_from_above(*pose, picture, taken);
-    show_from_behind(*pose, static_cast<double>(wall_dt));
-  }
-  show_banner(picture, taken);
+  if (pose) show_from_above(*pose, picture, taken);
+  show_banner(shown, picture, taken);
+  if (threat != nullptr) show_threat(*threat, picture, taken);
   const screen::Taken others = things(pose, std::numeric_limits<double>::infinity(), picture);
   taken.always.insert(taken.always.end(), others.always.begin(), others.always.end());
   if (pose) show_way(*pose, picture, taken);
   show_labels(picture, taken);
+  draw_if_changed(*context_->getViewManager()->getCurrent()->getCamera());
+  tell_rate();
 }
 
-void CaptionsDisplay::show_banner(const Eigen::Vector2d& picture, screen::Taken& taken) {
-  const status::Shown shown = reader_->shown();
+void CaptionsDisplay::draw_if_changed(const Ogre::Camera& camera) {
+  Drawn now{camera.getViewMatrix(), camera.getProjectionMatrix(), MarkersDisplay::changes(), {}};
+  for (const auto& [name, entry] : plates_) now.plates += name + entry.key + entry.plate->shown();
+  const ros::SteadyTime time = ros::SteadyTime::now();
+  const bool due = !(now == drawn_) || (time - drawn_at_).toSec() >= kSeldom;
+  camera.getViewport()->getTarget()->setAutoUpdated(due);
+  if (!due) return;
+  drawn_ = std::move(now);
+  drawn_at_ = time;
+  ++cost_.drawn;
+}
+
+bool CaptionsDisplay::frameStarted(const Ogre::FrameEvent& /*event*/) {
+  begun_ = std::clock();
+  return true;
+}
+
+bool CaptionsDisplay::frameEnded(const Ogre::FrameEvent& /*event*/) {
+  cost_.used += std::clock() - begun_;
+  return true;
+}
+
+void CaptionsDisplay::tell_rate() {
+  const ros::SteadyTime time = ros::SteadyTime::now();
+  const double past = (time - cost_.since).toSec();
+  if (past < kTell || cost_.drawn == 0) return;
+  diagnostic_msgs::DiagnosticArray msg;
+  msg.header.stamp = ros::Time::now();
+  msg.status.emplace_back();
+  msg.status[0].name = "navvi/picture";
+  const auto add = [&](const char* key, double value) {
+    diagnostic_msgs::KeyValue pair;
+    pair.key = key;
+    pair.value = QString::number(value, 'f', 1).toStdString();
+    msg.status[0].values.push_back(pair);
+  };
+  add("frames_per_second", cost_.drawn / past);
+  add("processor_ms_per_frame", 1e3 * static_cast<double>(cost_.used) / CLOCKS_PER_SEC / cost_.drawn);
+  diagnostics_.publish(msg);
+  cost_ = {0, 0, time};
+}
+
+const CaptionsDisplay::Mover* CaptionsDisplay::threat(const status::Shown& shown,
+                                                      const navvi_types::Pose2& robot) const {
+  const auto& guidance = reader_->guidance();
+  Eigen::Vector2d place = robot.position;
+  if (guidance && guidance->state == navvi_types::Guidance::State::blocked)
+    if (const auto way = screen::way_ahead(path_, place, guidance->blocked_distance))
+      place = way->head<2>();
+  const Mover* nearest = nullptr;
+  const auto away = [&](const Mover& mover) {
+    return (mover.place.center().head<2>() - place).norm();
+  };
+  for (const Mover& mover : movers_) {
+    // Who guides may not know the class of what the picture knows.
+    const bool meant =
+        mover.thing_class == shown.mover || shown.mover == navvi_types::ThingClass::other;
+    if (meant && (nearest == nullptr || away(mover) < away(*nearest))) nearest = &mover;
+  }
+  return nearest;
+}
+
+void CaptionsDisplay::show_threat(const Mover& threat, const Eigen::Vector2d& picture,
+                                  screen::Taken& taken) {
+  const Seen middle = see(threat.place.center());
+  const auto edge = screen::edge_arrow(middle.in_camera, middle.pixel, picture, 2.0 * height_);
+  if (edge) show_edge_arrow("threat", *edge, Chosen::shared().vision().text, picture, taken);
+  const std::string name =
+      reader_->words().of(std::string("words/") + to_string(threat.thing_class));
+  const Plate& plate = words("who", name, height_, true);
+  const screen::Rect place = seen(threat.place);
+  const Eigen::Vector2d at =
+      edge ? edge->at : Eigen::Vector2d(place.center().x(), std::max(0.0, place.min().y()));
+  std::optional<Eigen::Vector2d>& before = plates_.at("who").place;
+  const auto corner = screen::place({{at, size_of(plate), before}}, picture, taken)[0];
+  if (!corner) return;
+  before = *corner - at;
+  plates_.at("who").plate->show(corner->x(), corner->y());
+  taken.always.emplace_back(*corner, *corner + size_of(plate));
+}
+
+void CaptionsDisplay::show_banner(const status::Shown& shown, const Eigen::Vector2d& picture,
+                                  screen::Taken& taken) {
   if (shown.banner.empty()) return;
   const bool inverted = shown.tone == status::Shown::Tone::alarm;
+  if (banner_.text != shown.banner) banner_ = {shown.banner, 1.0};
   int large = static_cast<int>(
+      banner_.share *
       std::min(2.0 * height_, std::max(kBanner * picture.y(), static_cast<double>(kLeastText))));
   Plate* plate = &words("banner", shown.banner, large, inverted);
   const double width = size_of(*plate).x();
@@ -198,10 +311,13 @@ void CaptionsDisplay::show_banner(const Eigen::Vector2d& picture, screen::Taken&
   const Eigen::Vector2d size = size_of(*plate);
   const Eigen::Vector2d usual(0.5 * picture.x(), size.y() + 20.0);
   std::optional<Eigen::Vector2d>& before = plates_.at("banner").place;
+  const auto room = screen::place({{usual, size, before}}, picture, {taken.always, {}})[0];
+  // For whom letters cannot be too large they stay.
+  if (!room && Chosen::shared().vision().text_height <= kLeastText)
+    banner_.share = std::max(kLeastShare, 0.85 * banner_.share);
   // What must not be missed is shown, whatever it covers.
   const Eigen::Vector2d corner =
-      screen::place({{usual, size, before}}, picture, {taken.always, {}})[0].value_or(
-          Eigen::Vector2d(0.5 * (picture.x() - size.x()), 10.0));
+      room.value_or(Eigen::Vector2d(0.5 * (picture.x() - size.x()), 10.0));
   before = corner - usual;
   plate->show(corner.x(), corner.y());
   taken.always.emplace_back(corner, corner + size);
@@ -209,7 +325,6 @@ void CaptionsDisplay::show_banner(const Eigen::Vector2d& picture, screen::Taken&
 
 void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
                                screen::Taken& taken) {
-  const int size = std::min(4 * height_, static_cast<int>(kArrow * picture.y()));
   std::optional<screen::EdgeArrow> arrow;
   for (const double ahead : kAhead) {
     const auto way = screen::way_ahead(path_, robot.position, ahead);
@@ -218,16 +333,25 @@ void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vec
     // What is ahead, but below the picture, is just before the robot.
     if (seen.pixel && robot.to_local(way->head<2>()).x() > 0.0)
       seen.pixel->y() = std::min(seen.pixel->y(), picture.y() - 1.0);
-    arrow = screen::edge_arrow(seen.in_camera, seen.pixel, picture, 0.5 * size);
+    arrow = screen::edge_arrow(seen.in_camera, seen.pixel, picture, 0.5 * edge_size(picture));
   }
-  if (!arrow) return;
-  Plate& plate = this->arrow("edge", arrow->angle, size);
-  const Eigen::Vector2d low = arrow->at + Eigen::Vector2d(0.0, 0.5 * size_of(plate).y());
-  std::optional<Eigen::Vector2d>& before = plates_.at("edge").place;
+  if (arrow)
+    show_edge_arrow("edge", *arrow, Chosen::shared().vision().fill.at("path"), picture, taken);
+}
+
+void CaptionsDisplay::show_edge_arrow(const std::string& name, const screen::EdgeArrow& arrow,
+                                      const look::Color& fill, const Eigen::Vector2d& picture,
+                                      screen::Taken& taken) {
+  const Plate& plate =
+      pointer(name, arrow.angle, edge_size(picture), [&](double angle, int size) {
+        return paint_arrow(angle, size, fill, Chosen::shared().vision());
+      });
+  const Eigen::Vector2d low = arrow.at + Eigen::Vector2d(0.0, 0.5 * size_of(plate).y());
+  std::optional<Eigen::Vector2d>& before = plates_.at(name).place;
   const auto corner = screen::place({{low, size_of(plate), before}}, picture, taken)[0];
   if (!corner) return;
   before = *corner - low;
-  plate.show(corner->x(), corner->y());
+  plates_.at(name).plate->show(corner->x(), corner->y());
   taken.always.emplace_back(*corner, *corner + size_of(plate));
 }
 
@@ -248,14 +372,14 @@ void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture, const screen::
   };
   for (const auto& [id, label] : labels_)
     add("label" + std::to_string(id), label.first, label.second, id == kGoal);
-  if (from_above() && start_ && !labels_.empty())
-    add("start", reader_->words().of("picture/plate_start"), {start_->x(), start_->y(), 0.0},
-        false);
   const auto corners = screen::place(wanted, picture, taken);
   for (std::size_t i = 0; i < plates.size(); ++i) {
     if (!corners[i]) continue;
     plates[i]->plate->show(corners[i]->x(), corners[i]->y());
     plates[i]->place = *corners[i] - wanted[i].anchor;
+    // Far from its place, it would seem to name another.
+    if ((*plates[i]->place + 0.5 * wanted[i].size).norm() > kFar * picture.y())
+      plates[i]->plate->hide();
   }
 }
 
@@ -289,10 +413,10 @@ screen::Taken CaptionsDisplay::things(const std::optional<navvi_types::Pose2>& r
     const Eigen::Vector3d at(robot->position.x(), robot->position.y(), kRobot);
     add({at.array() - kRobot, at.array() + kRobot}, taken.always);
   }
-  for (const Eigen::AlignedBox3d& mover : movers_)
-    if (!mover.isEmpty() && away(mover.center()) <= reach) add(mover, taken.always);
-  for (const auto* those : {&goal_parts_, &pedestals_})
-    for (const Eigen::AlignedBox3d& thing : *those) add(thing, taken.rather);
+  for (const Mover& mover : movers_)
+    if (away(mover.place.center()) <= reach) add(mover.place, taken.always);
+  for (const Eigen::AlignedBox3d& part : goal_parts_) add(part, taken.always);
+  for (const Eigen::AlignedBox3d& pedestal : pedestals_) add(pedestal, taken.rather);
   for (std::size_t i = 0; i + 1 < path_.size(); ++i) {
     const Eigen::Vector3d way = path_[i + 1] - path_[i];
     const Eigen::Vector3d half(0.5 * kPiece, 0.5 * kPiece, 0.0);
@@ -321,24 +445,43 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   for (const Eigen::Vector3d& place : path_) all.extend(place.head<2>());
   const Eigen::Vector2d room = all.sizes() + Eigen::Vector2d::Constant(2.0 * kMargin);
   const double banner = std::min(5.0 * height_, 0.3 * picture.y());  // px, above all that
-  const Eigen::Array2d free(picture.x(), picture.y() - banner);
+  const double symbol = 3.0 * height_;  // px, of the robot's
+  const Eigen::Array2d free(picture.x() - symbol, picture.y() - banner - symbol);
   const double scale = std::min(kLargest, (free / room.array()).minCoeff());
   rviz::ViewController* view = context_->getViewManager()->getCurrent();
   view->subProp("X")->setValue(all.center().x());
   view->subProp("Y")->setValue(all.center().y() + 0.5 * banner / scale);
   view->subProp("Scale")->setValue(scale);
-  const auto pixel = see({robot.position.x(), robot.position.y(), 0.0}).pixel;
-  if (!pixel) return;
-  Plate& plate = arrow("robot", robot.yaw, 3 * height_);
-  const Eigen::Vector2d corner = *pixel - 0.5 * size_of(plate);
-  plate.show(corner.x(), corner.y());
-  taken.always.emplace_back(corner, corner + size_of(plate));
+  const auto show = [&](const std::string& name, const Eigen::Vector2d& at, double angle, int size,
+                        const Paint& paint) {
+    const auto pixel = see({at.x(), at.y(), 0.0}).pixel;
+    if (!pixel) return;
+    const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * size), corner = *pixel - half;
+    const screen::Rect place(corner, corner + 2.0 * half);
+    pointer(name, angle, size, paint).show(corner.x(), corner.y());
+    taken.always.push_back(place);
+  };
+  const look::Vision& vision = Chosen::shared().vision();
+  show("robot", robot.position, robot.yaw, 3 * height_,
+       [&](double angle, int size) { return paint_robot(angle, size, vision); });
+  if (start_ && !path_.empty() && scale * (*start_ - robot.position).norm() > 2.0 * height_)
+    show("start", *start_, 0.0, height_,
+         [&](double, int size) { return paint_start(size, vision); });
 }
 
-void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, double time) {
+void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, const Mover* threat,
+                                       const Eigen::Vector2d& picture, double time) {
   rviz::ViewController* view = context_->getViewManager()->getCurrent();
   if (view->getName() != "Chase") return;
-  const double distance = view->subProp("Distance")->getValue().toDouble();
+  rviz::Property* away = view->subProp("Distance");
+  double distance = away->getValue().toDouble();
+  const bool sought =
+      threat != nullptr &&
+      !screen::Rect(Eigen::Vector2d::Zero(), picture).contains(seen(threat->place));
+  if (sought || threat == nullptr) {
+    distance += std::clamp((sought ? kFarthest : kUsual) - distance, -kIn * time, kOut * time);
+    away->setValue(distance);
+  }
   rviz::Property* focus = view->subProp("Focal Point");
   const double ahead = focus->subProp("X")->getValue().toDouble();
   const Eigen::Vector2d nose(std::cos(robot.yaw), std::sin(robot.yaw));
@@ -359,11 +502,15 @@ void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, double t
   pitch->setValue(now + std::clamp(wanted - now, -kDown * time, kUp * time));
 }
 
-Plate& CaptionsDisplay::arrow(const std::string& name, double angle, int size) {
+int CaptionsDisplay::edge_size(const Eigen::Vector2d& picture) const {
+  return std::min(4 * height_, static_cast<int>(kArrow * picture.y()));
+}
+
+Plate& CaptionsDisplay::pointer(const std::string& name, double angle, int size,
+                                const Paint& paint) {
   const int degrees = 10 * static_cast<int>(std::lround(angle * 18.0 / navvi_types::kPi));
-  return painted(name, std::to_string(degrees) + "/" + std::to_string(size), [&] {
-    return paint_arrow(degrees * navvi_types::kPi / 180.0, size, Chosen::shared().vision());
-  });
+  return painted(name, std::to_string(degrees) + "/" + std::to_string(size),
+                 [&] { return paint(degrees * navvi_types::kPi / 180.0, size); });
 }
 
 }  // namespace navvi_rviz::plugin

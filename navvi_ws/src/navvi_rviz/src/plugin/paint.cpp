@@ -11,6 +11,7 @@
 #include <QPolygonF>
 #include <QWidget>
 #include <cmath>
+#include <functional>
 #include <navvi_types/angles.hpp>
 
 namespace navvi_rviz::plugin {
@@ -26,6 +27,26 @@ void choose_view(rviz::DisplayContext& context, const QString& name) {
     for (auto* tree : window->getParentWindow()->findChildren<rviz::PropertyTreeWidget*>())
       QCoreApplication::sendPostedEvents(tree, QEvent::MetaCall);
 }
+
+namespace {
+
+/// On a clear square with its origin in the middle, turned by an angle.
+QImage drawn(double angle, int size, const std::function<void(QPainter&)>& draw) {
+  QImage image(size, size, QImage::Format_ARGB32);
+  image.fill(Qt::transparent);
+  QPainter painter(&image);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.translate(0.5 * size, 0.5 * size);
+  painter.rotate(-angle * 180.0 / navvi_types::kPi);
+  draw(painter);
+  return image;
+}
+
+QPen outline(const look::Color& shade, double width) {
+  return {color(shade), width, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin};
+}
+
+}  // namespace
 
 QColor color(const look::Color& color) {
   return QColor::fromRgbF(static_cast<double>(color.r), static_cast<double>(color.g),
@@ -56,13 +77,7 @@ QImage paint_words(const QString& words, int height, const look::Vision& vision,
   return image;
 }
 
-QImage paint_arrow(double angle, int size, const look::Vision& vision) {
-  QImage image(size, size, QImage::Format_ARGB32);
-  image.fill(Qt::transparent);
-  QPainter painter(&image);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.translate(0.5 * size, 0.5 * size);
-  painter.rotate(-angle * 180.0 / navvi_types::kPi);
+QImage paint_arrow(double angle, int size, const look::Color& fill, const look::Vision& vision) {
   const double s = 0.4 * size;
   const QPolygonF arrow({{-s, -0.35 * s},
                          {0.1 * s, -0.35 * s},
@@ -71,14 +86,36 @@ QImage paint_arrow(double angle, int size, const look::Vision& vision) {
                          {0.1 * s, 0.9 * s},
                          {0.1 * s, 0.35 * s},
                          {-s, 0.35 * s}});
-  painter.setPen(QPen(color(vision.dark), 0.14 * size, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.setBrush(color(vision.dark));
-  painter.drawPolygon(arrow);
-  painter.setPen(
-      QPen(color(vision.bright), 0.06 * size, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  painter.setBrush(color(vision.fill.at("path")));
-  painter.drawPolygon(arrow);
-  return image;
+  return drawn(angle, size, [&](QPainter& painter) {
+    painter.setPen(outline(vision.dark, 0.14 * size));
+    painter.setBrush(color(vision.dark));
+    painter.drawPolygon(arrow);
+    painter.setPen(outline(vision.bright, 0.06 * size));
+    painter.setBrush(color(fill));
+    painter.drawPolygon(arrow);
+  });
+}
+
+QImage paint_robot(double angle, int size, const look::Vision& vision) {
+  const double s = 0.44 * size;
+  return drawn(angle, size, [&](QPainter& painter) {
+    painter.setPen(outline(vision.dark, 0.08 * size));
+    painter.setBrush(color(vision.fill.at("robot")));
+    painter.drawEllipse(QPointF(), s, s);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(color(vision.dark));
+    painter.drawPolygon(
+        QPolygonF({{0.9 * s, 0.0}, {-0.6 * s, 0.55 * s}, {-0.3 * s, 0.0}, {-0.6 * s, -0.55 * s}}));
+  });
+}
+
+QImage paint_start(int size, const look::Vision& vision) {
+  return drawn(0.0, size, [&](QPainter& painter) {
+    painter.setPen(outline(vision.dark, 0.32 * size));
+    painter.drawEllipse(QPointF(), 0.33 * size, 0.33 * size);
+    painter.setPen(outline(vision.bright, 0.16 * size));
+    painter.drawEllipse(QPointF(), 0.33 * size, 0.33 * size);
+  });
 }
 
 }  // namespace navvi_rviz::plugin

@@ -24,6 +24,13 @@ void choose_view(rviz::DisplayContext& context, const QString& name);
                                  bool inverted);
 
 /// An arrow. \param angle  rad, where it points; 0 is right, counter-clockwise \param size  px
-[[nodiscard]] QImage paint_arrow(double angle, int size, const look::Vision& vision);
+[[nodiscard]] QImage paint_arrow(double angle, int size, const look::Color& fill,
+                                 const look::Vision& vision);
+
+/// The robot as it is seen in the scene, a white disc with a black arrow. \param angle, size  as above
+[[nodiscard]] QImage paint_robot(double angle, int size, const look::Vision& vision);
+
+/// A ring, where it began. \param size  px
+[[nodiscard]] QImage paint_start(int size, const look::Vision& vision);
 
 }  // namespace navvi_rviz::plugin

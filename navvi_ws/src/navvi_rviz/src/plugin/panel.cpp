@@ -31,7 +31,8 @@ namespace {
 constexpr int kRefresh = 100;        // ms
 constexpr int kSpace = 4;            // px, between the parts
 constexpr double kShare = 0.4;       // of the window, at most: the rest is the picture's
-constexpr double kLeastZoom = 0.45;  // of letters, however small the window
+constexpr double kLetters = 26.0;    // px, of capital letters on a screen of 1080 rows
+constexpr double kLeast = 12.0;      // px, of them, however small the window
 
 QString number(double value, int decimals, const char* unit) {
   return QString::number(value, 'f', decimals) + " " + QString::fromUtf8(unit);
@@ -114,7 +115,9 @@ void Panel::name_all() {
     const bool spoken = !named.spoken.empty() && (named.same || reader_->keyboard());
     const QString key = spoken ? of("lessons/" + named.spoken) : named.key.toString();
     const QString name = of("picture/" + named.words);
-    if (const QString text = name + " (" + key + ")"; named.button->text() != text) {
+    // The largest letters leave no room for keys.
+    const bool plain = Chosen::shared().vision().text_height > kLetters;
+    if (const QString text = plain ? name : name + " (" + key + ")"; named.button->text() != text) {
       named.button->setText(text);
       named.button->setAccessibleName(name);
       named.button->setAccessibleDescription(of("picture/key") + " " + key);
@@ -272,28 +275,29 @@ void Panel::show_chrome(bool visible) {
 }
 
 /// Letters are as large for the eye on any screen, but smaller where the panel would take more of
-/// the window than its share.
+/// the window than its share: first those of the buttons.
 void Panel::fit() {
   const int wide = width() - 2 * kSpace;
-  double zoom = std::clamp(screen()->size().height() / 1080.0, 0.7, 2.0);
+  const double zoom = std::clamp(screen()->size().height() / 1080.0, 0.7, 2.0);
+  double large = zoom * Chosen::shared().vision().text_height, rest = large;
   int said = 0, height = 0;  // px
-  for (style(zoom); zoom > kLeastZoom; style(zoom *= 0.97)) {
+  for (style(large, rest); rest > kLeast; style(large, rest)) {
     said = std::max(labels_.instruction->sizeHint().height(),
                     labels_.menu->sizeHint().height() + rows_.menu->heightForWidth(wide));
     height = said + labels_.state->sizeHint().height() + rows_.buttons->heightForWidth(wide) +
              4 * kSpace;
     if (height <= kShare * window()->height()) break;
+    if (rest <= zoom * kLetters) large *= 0.97;
+    rest = std::min(0.97 * rest, large);
   }
   pages_->setFixedHeight(said);
   setFixedHeight(height);
   fitted_ = window()->size();
 }
 
-/// \param zoom  times the size on a screen of 1080 rows
-void Panel::style(double zoom) {
+void Panel::style(double said, double rest) {
   const look::Vision& vision = Chosen::shared().vision();
   const QString text = color(vision.text).name(), plate = color(vision.plate).name();
-  const double height = zoom * vision.text_height;
   setStyleSheet(
       QString("QWidget { background: %2; color: %1; font: bold %4px 'DejaVu Sans'; }"
               "QLabel#instruction { font-size: %3px; }"
@@ -302,8 +306,8 @@ void Panel::style(double zoom) {
               "QLabel:focus, QPushButton:focus, QComboBox:focus { border: 5px double %1; }"
               "QLabel[alarm=\"true\"] { background: %1; color: %2; }")
           .arg(text, plate)
-          .arg(font_size(height))
-          .arg(font_size(std::max(26.0 * zoom, 0.55 * height))));
+          .arg(font_size(said))
+          .arg(font_size(rest)));
 }
 
 void Panel::show_menu(const QString& words) {

@@ -59,7 +59,8 @@ class Panel : public rviz::Panel {
   /// Beside the picture, the robot's own with what is drawn over it, if there is one.
   void show_camera(QMainWindow& main);
   void fit();
-  void style(double zoom);
+  /// \param said, rest  px, of capital letters in what the guide says, and in all else
+  void style(double said, double rest);
   void refresh();
 
   std::unique_ptr<Reader> reader_;

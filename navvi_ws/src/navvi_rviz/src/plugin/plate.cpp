@@ -61,6 +61,11 @@ void Plate::show(double left, double top) {
   overlay_->show();
 }
 
+std::string Plate::shown() const {
+  if (!overlay_->isVisible()) return "";
+  return std::to_string(panel_->getLeft()) + "/" + std::to_string(panel_->getTop());
+}
+
 void Plate::hide() { overlay_->hide(); }
 
 }  // namespace navvi_rviz::plugin

@@ -25,6 +25,8 @@ class Plate {
   void show(double left, double top);
   void hide();
   [[nodiscard]] QSize size() const { return size_; }
+  /// Where it is seen; empty: nowhere.
+  [[nodiscard]] std::string shown() const;
 
  private:
   std::string name_;

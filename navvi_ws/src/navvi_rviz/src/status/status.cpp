@@ -63,6 +63,16 @@ std::string Words::said(navvi_types::CueKind kind, bool keyboard) const {
   return text;
 }
 
+std::optional<navvi_types::ThingClass> Words::mover_in(const std::string& text) const {
+  using navvi_types::ThingClass;
+  for (const ThingClass mover : {ThingClass::worker, ThingClass::forklift,
+                                 ThingClass::pallet_robot, ThingClass::other}) {
+    const std::string word = of(std::string("words/") + to_string(mover));
+    if (!word.empty() && text.find(word) != std::string::npos) return mover;
+  }
+  return std::nullopt;
+}
+
 std::string Words::to_go(double metres) const {
   const auto length = navvi_types::spoken_length(metres, units_);
   return length.number + " " + of(std::string("words/") + length.unit) + " " + of("picture/to_go");
@@ -74,6 +84,7 @@ Shown SteadyBanner::hold(Shown shown, double time) {
   if (changed && last_ && time - since_ < kLeast) {
     shown.banner = last_->banner;
     shown.tone = last_->tone;
+    shown.mover = last_->mover;
   } else if (changed) {
     since_ = time;
     last_ = shown;
@@ -151,6 +162,7 @@ void Status::choose_banner(double time, Shown& shown) const {
     show(words_.said(CueKind::robot_stopped, keyboard_), Shown::Tone::alarm);
   if (order_ && family_of(order_->kind) != CueFamily::way)
     show(order_->text, tone_of(order_->kind));
+  shown.mover = words_.mover_in(shown.banner);
   if (silent_ && time - *silent_ < kNoSound) show(words_.of("picture/no_sound"), Shown::Tone::wait);
 }
 

@@ -7,6 +7,7 @@
 #include <navvi_types/cue_kind.hpp>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
+#include <navvi_types/thing.hpp>
 #include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
@@ -27,6 +28,9 @@ class Words {
   /// \param keyboard  the hands are on the arrow keys
   [[nodiscard]] std::string said(navvi_types::CueKind kind, bool keyboard) const;
 
+  /// Which kind of mover a sentence names.
+  [[nodiscard]] std::optional<navvi_types::ThingClass> mover_in(const std::string& text) const;
+
   /// What is left to the goal, rounded as the voice does.
   /// \param metres  finite, >= 0
   [[nodiscard]] std::string to_go(double metres) const;
@@ -42,6 +46,7 @@ struct Shown {
 
   std::string banner = {};  ///< what matters most now, such as "stop, worker ahead"; empty: nothing
   Tone tone = Tone::calm;   ///< of the banner
+  std::optional<navvi_types::ThingClass> mover = {};  ///< what the banner warns of, if that moves
   std::string instruction = {};      ///< what the guide said last; of the way: as it is now
   std::string menu = {};             ///< what the spoken menu offers; empty while it is closed
   std::string distance = {};         ///< left to the goal along the path; empty: not known

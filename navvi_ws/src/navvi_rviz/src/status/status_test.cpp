@@ -229,6 +229,15 @@ TEST(SteadyBanner, shows_what_comes_after_calm_at_once_and_the_rest_as_it_is) {
   EXPECT_EQ(banner.hold(shown, 1.4).banner, "");
 }
 
+TEST(Status, the_banner_has_the_mover_that_it_names) {
+  using navvi_types::ThingClass;
+  Status status = speaking("es");
+  status.take_order(said(CueKind::blocked, "espere, carretilla elevadora en el camino"));
+  EXPECT_EQ(status.shown(1.0, 0.0).mover, ThingClass::forklift);
+  status.take_order(said(CueKind::obstacle_stop, "pare, estantería a la izquierda"));
+  EXPECT_FALSE(status.shown(2.0, 0.0).mover);
+}
+
 }  // namespace
 
 }  // namespace navvi_rviz::status
