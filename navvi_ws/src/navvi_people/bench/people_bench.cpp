@@ -39,7 +39,7 @@ SimulatedOperatorConfig person(const std::string& type, int seed) {
   navvi_config::read(config,
                      navvi_config::read_words({"type:=" + type, "seed:=" + std::to_string(seed)}),
                      "bench");
-  return config;
+  return config.typed();
 }
 
 /// A robot without inertia on an empty floor, and its stick some time late.

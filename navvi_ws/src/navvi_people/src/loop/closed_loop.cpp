@@ -73,7 +73,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
       navigation_(config.nav, cache),
       guided_(config.feedback, config.person, config.sim.seed, config.speech, phrases) {
   if (config.driver == "sighted")
-    sighted_.emplace(config.person.driving, static_cast<std::uint64_t>(config.person.seed),
+    sighted_.emplace(config.person.typed().driving, static_cast<std::uint64_t>(config.person.seed),
                      static_cast<std::uint64_t>(config.sim.seed));
   if (!setting_.senses)
     navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);

@@ -15,7 +15,7 @@ people::SimulatedOperatorConfig taught(people::SimulatedOperatorConfig person,
                                        const navvi_feedback::core::GuideConfig& guide,
                                        bool speech) {
   person.lead = guide.lead(speech || guide.has_sounds());
-  return person;
+  return person.typed();
 }
 
 }  // namespace

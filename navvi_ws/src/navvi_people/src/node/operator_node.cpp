@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
       phrases = ros::package::getPath("navvi_feedback") + "/config/phrases/" +
                 ros::param::param<std::string>(feedback + "/language", "en") + ".yaml";
     const int world = ros::param::param<int>(ros::names::resolve("sim_node") + "/seed", 0);
-    navvi_people::people::SimulatedOperatorConfig taught = config.person;
+    navvi_people::people::SimulatedOperatorConfig taught = config.person.typed();
     ros::param::param<std::string>(feedback + "/lead", taught.lead, taught.lead);
     navvi_people::people::SimulatedOperator person(taught, phrases, world);
     double left = 0.0;

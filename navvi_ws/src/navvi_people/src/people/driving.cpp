@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_people::people {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = navvi_types::kPi / 180.0;
 constexpr double kLeast = 22.5 * kDegree;   // below, nobody has measured; in proportion
 constexpr double kSlight = 60.0 * kDegree;  // the border of the classes
 

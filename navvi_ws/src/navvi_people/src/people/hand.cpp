@@ -24,10 +24,13 @@ constexpr double kTalkToHand = 0.053;
 StickAndButtons SimulatedOperator::act(double time, double dt) {
   static constexpr Rule kRules[] = {
       &SimulatedOperator::follow_display, &SimulatedOperator::wait, &SimulatedOperator::follow_ticks,
-      &SimulatedOperator::turn,           &SimulatedOperator::drive, &SimulatedOperator::try_ahead,
-      &SimulatedOperator::back};
+      &SimulatedOperator::turn,           &SimulatedOperator::drive, &SimulatedOperator::back};
   for (const Rule rule : kRules)
     if (const std::optional<StickAndButtons> hand = (this->*rule)(time, dt)) return *hand;
+  // Where nobody speaks, nor answers, one tries.
+  const bool unanswered = now_.asked > *now_.start && time - now_.asked > kTriesAfter;
+  const bool led = now_.spoken_to || now_.told_to_halt || now_.shown >= *now_.start;
+  if (now_.mode == Mode::waiting && unanswered && !led) now_.try_ahead();
   return {};
 }
 
@@ -121,14 +124,6 @@ std::optional<StickAndButtons> SimulatedOperator::drive(double time, double) {
   if (std::abs(error) > 0.04)
     hand.left = std::copysign(std::clamp(std::abs(error) * 1.5, 0.35, 0.6), error);
   return hand;
-}
-
-/// Where nobody speaks, nor answers, one tries.
-std::optional<StickAndButtons> SimulatedOperator::try_ahead(double time, double) {
-  const bool unanswered = now_.asked > *now_.start && time - now_.asked > kTriesAfter;
-  const bool led = now_.spoken_to || now_.told_to_halt || now_.shown >= *now_.start;
-  if (now_.mode == Mode::waiting && unanswered && !led) now_.try_ahead();
-  return std::nullopt;
 }
 
 std::optional<StickAndButtons> SimulatedOperator::back(double time, double) {

@@ -36,7 +36,7 @@ SimulatedOperatorConfig person(const std::string& type, int seed = 1) {
   SimulatedOperatorConfig config;
   navvi_config::read(
       config, navvi_config::read_words({"type:=" + type, "seed:=" + std::to_string(seed)}), "test");
-  return config;
+  return config.typed();
 }
 
 // An ear gets words, sounds and their sides, a hand two forces: these members, of these types, and
@@ -289,11 +289,13 @@ TEST(Types, are_in_order_in_every_trait_and_what_is_set_besides_stays) {
   SimulatedOperatorConfig config;
   navvi_config::read(config,
                      navvi_config::read_words({"hearing/words:=false", "type:=struggling"}), "test");
+  config = config.typed();
   EXPECT_FALSE(config.hearing.words);
   EXPECT_EQ(config.hearing.missed_sounds, person("struggling").hearing.missed_sounds);
   SimulatedOperatorConfig shipped;
   SimulatedOperatorConfig able = person("typical");
-  become(able, "able", 1);
+  able.type = "able";
+  able = able.typed();
   for (const Trait& trait : traits())
     EXPECT_EQ(trait.of(shipped), trait.of(able)) << trait.name << ": the default is able";
 }
@@ -314,6 +316,7 @@ TEST(Types, of_drawn_people_differ_by_seed_around_the_published_means) {
 TEST(Types, are_worse_by_a_factor_in_all_but_what_they_like) {
   SimulatedOperatorConfig usual = person("struggling"), worse;
   navvi_config::read(worse, navvi_config::read_words({"type:=struggling", "worse:=1.5"}), "test");
+  worse = worse.typed();
   EXPECT_NEAR(worse.tracking.delay, 1.5 * usual.tracking.delay, 1e-9);
   EXPECT_NEAR(worse.feeling.recognised, 0.55, 1e-9);
   EXPECT_NEAR(worse.hearing.fastest_speech, usual.hearing.fastest_speech / 1.5, 1e-9);

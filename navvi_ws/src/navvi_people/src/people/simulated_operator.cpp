@@ -54,9 +54,6 @@ std::optional<Aim> aim_of(const Sound& sound) {
 }  // namespace
 
 void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
-  const std::string type_before = type;
-  const int seed_before = seed;
-  const double worse_before = worse;
   visit(seed, "seed", navvi_config::Range{0, 2147483647}, "",
         "of a drawn person's traits, and, with the world's seed, of what the person does");
   visit(type, "type", navvi_config::OneOf{person_types()}, "",
@@ -66,9 +63,6 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
         "times delays, errors and misses of the type");
   visit(lead, "lead", navvi_config::OneOf{{"words", "ticks", "flow", "hand"}}, "",
         "the way of leading that the person was taught; a batch takes feedback/lead");
-  // What is set besides is laid over the type.
-  if (type != type_before || worse != worse_before || (type == "drawn" && seed != seed_before))
-    become(*this, type, seed);
   visit.group("hearing", hearing);
   visit.group("turning", turning);
   visit.group("driving", driving);

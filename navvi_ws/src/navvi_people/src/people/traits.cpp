@@ -71,20 +71,22 @@ const std::vector<std::string>& person_types() {
   return all;
 }
 
-void become(SimulatedOperatorConfig& config, const std::string& type, int seed) {
+SimulatedOperatorConfig SimulatedOperatorConfig::typed() const {
+  SimulatedOperatorConfig person = *this;
   Random random(static_cast<std::uint64_t>(seed) ^ kTraits);
   for (const Trait& trait : traits()) {
     double value = trait.typical;
     if (type == "able") value = trait.able;
     if (type == "struggling") value = trait.struggling;
     if (type == "drawn") value = random.lognormal(trait.typical, trait.between);
-    value = worsened(trait, value, config.worse);
+    value = worsened(trait, value, worse);
     // A share, a stick, a force.
     if (std::string(trait.unit).empty()) value = std::min(value, 1.0);
-    trait.of(config) = value;
+    trait.of(person) = value;
   }
-  config.hearing.words = config.hearing.sounds = type != "deafblind";
-  config.hearing.noise = type == "noise" ? 0.5 : 0.0;
+  if (type == "deafblind") person.hearing.words = person.hearing.sounds = false;
+  if (type == "noise" && hearing.noise == 0.0) person.hearing.noise = 0.5;
+  return person;
 }
 
 }  // namespace navvi_people::people

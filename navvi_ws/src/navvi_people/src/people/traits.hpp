@@ -23,8 +23,4 @@ struct Trait {
 /// The words that person/type takes.
 [[nodiscard]] const std::vector<std::string>& person_types();
 
-/// Gives a person the traits of its type; `drawn` ones are drawn from its seed: persons first, then
-/// what each does.
-void become(SimulatedOperatorConfig& config, const std::string& type, int seed);
-
 }  // namespace navvi_people::people

@@ -17,7 +17,7 @@
 
 namespace navvi_people::people {
 
-/// Each part in a group of its own. What a type sets stands in the table of traits.
+/// Each part in a group of its own. What typed() sets stands in the table of traits.
 struct SimulatedOperatorConfig {
   int seed = 1;
   std::string type = "able";
@@ -33,6 +33,9 @@ struct SimulatedOperatorConfig {
   LearningConfig learning;
 
   void describe(navvi_config::Visitor& visit);
+  /// With the traits of its type, drawn ones from its seed, so much the worse; and without what the
+  /// type does not hear.
+  [[nodiscard]] SimulatedOperatorConfig typed() const;
 };
 
 /// What the hands do.
@@ -86,7 +89,6 @@ class SimulatedOperator {
   [[nodiscard]] std::optional<StickAndButtons> follow_ticks(double time, double dt);
   [[nodiscard]] std::optional<StickAndButtons> turn(double time, double dt);
   [[nodiscard]] std::optional<StickAndButtons> drive(double time, double dt);
-  [[nodiscard]] std::optional<StickAndButtons> try_ahead(double time, double dt);
   [[nodiscard]] std::optional<StickAndButtons> back(double time, double dt);
   void ask_when_lost(double time);
   void believe(const StickAndButtons& hand, double dt);
