@@ -312,7 +312,7 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
 TEST_F(TrialNodeProcess, the_state_is_repeated_with_the_time_at_which_the_trial_began) {
   World world;
   world.moving = false;
-  Process node(command({"_record:=false"}));
+  Process node(command({"_record:=none"}));
   ASSERT_TRUE(run(world, [&] { return world.running.size() > 4; }));
   EXPECT_EQ(world.running.front(), world.running.back());
 }
@@ -349,7 +349,7 @@ TEST_F(TrialNodeProcess, M2_a_second_node_of_its_name_ends_the_trial_with_its_re
 TEST_F(TrialNodeProcess, P3_records_a_parameter_that_is_set_while_a_condition_is_locked) {
   World world;
   world.moving = false;
-  Process node(command({"_locked:=true", "_record:=false", "_limit:=10"}));
+  Process node(command({"_locked:=true", "_record:=none", "_limit:=10"}));
   ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
   ros::param::set("/trial_node/limit", 1.0);
   ASSERT_TRUE(run(world, [&] { return has(world, "PARAMETER_SET"); }));
@@ -374,7 +374,7 @@ TEST_F(TrialNodeProcess, a_killed_trial_is_closed_by_the_next_start) {
   World world;
   world.moving = false;
   {
-    Process node(command({"_record:=false"}));
+    Process node(command({"_record:=none"}));
     ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
     first = only_folder();
     node.signal(SIGKILL);
@@ -382,7 +382,7 @@ TEST_F(TrialNodeProcess, a_killed_trial_is_closed_by_the_next_start) {
   }
   EXPECT_FALSE(fs::exists(first / "summary.csv"));
   world.events.clear();
-  Process node(command({"_record:=false"}));
+  Process node(command({"_record:=none"}));
   ASSERT_TRUE(run(world, [&] { return has(world, "TRIAL_START"); }));
   EXPECT_EQ(summary_in(first)["result"], "aborted");
 }
@@ -390,7 +390,7 @@ TEST_F(TrialNodeProcess, a_killed_trial_is_closed_by_the_next_start) {
 TEST_F(TrialNodeProcess, a_limit_ends_the_trial_in_ros_time) {
   World world;
   world.moving = false;
-  Process node(command({"_record:=false", "_limit:=1.0"}));
+  Process node(command({"_record:=none", "_limit:=1.0"}));
   ASSERT_TRUE(run(world, [&] { return !node.running(); }));
   EXPECT_EQ(node.exit_code(), 0);
   EXPECT_EQ(summary_in(only_folder())["result"], "timeout");

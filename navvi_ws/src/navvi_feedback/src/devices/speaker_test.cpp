@@ -105,6 +105,13 @@ std::vector<pid_t> voices() {
   return found;
 }
 
+Sound whole(const std::string& text, int rate, Voice& voice) {
+  Sound sound = voice.begin(text, rate).value();
+  const Sound rest = voice.rest().value();
+  sound.samples.insert(sound.samples.end(), rest.samples.begin(), rest.samples.end());
+  return sound;
+}
+
 /// Of two recordings, the mean difference of their loudness at the offset where that is least.
 double unlike(const std::vector<double>& said, const std::vector<double>& heard) {
   double least = 1.0;
@@ -119,13 +126,11 @@ double unlike(const std::vector<double>& said, const std::vector<double>& heard)
 TEST(Speaker, plays_a_sentence_that_comes_in_two_parts_without_a_gap) {
   const std::string text = "the goal is 20 meters on, at 9 o'clock";
   Voice voice("en", 50);
-  Sound whole = voice.begin(text, 220).value();
-  const std::size_t first = whole.samples.size();
-  const Sound rest = voice.rest().value();
-  EXPECT_GT(rest.samples.size(), first);
-  whole.samples.insert(whole.samples.end(), rest.samples.begin(), rest.samples.end());
+  const std::size_t first = voice.begin(text, 220).value().samples.size();
   std::vector<double> samples;
-  for (const std::int16_t sample : whole.samples) samples.push_back(sample / 32768.0);
+  for (const std::int16_t sample : whole(text, 220, voice).samples)
+    samples.push_back(sample / 32768.0);
+  EXPECT_GT(samples.size(), 2 * first);
   {
     Mixer mixer(MixerConfig{}, Audio::on);
     Speaker speaker(SpeakerConfig{}, mixer);
@@ -213,7 +218,8 @@ double fundamental(const Sound& sound) {
 
 TEST(Speaker, speaks_higher_at_a_higher_pitch) {
   const auto pitch = [](int value) {
-    return fundamental(Voice("en", value).begin("ah ah ah ah ah", 80).value());
+    Voice voice("en", value);
+    return fundamental(whole("ah ah ah", 80, voice));
   };
   EXPECT_GT(pitch(80), 1.2 * pitch(20));
 }
