@@ -274,7 +274,10 @@ TEST_F(TutorialTest, knows_each_way_to_go_wrong) {
         {"too_little", [this](double t) { seen_.stick.x = t < 1.0 ? -0.5 : 0.0; }},
         {"driven", [this](double) { seen_.stick.y = 1.0; }}}},
       {"by_hand",
-       {{"place", [this](double t) { seen_.stick.x = std::fmod(t, 2.0) < 1.0 ? 1.0 : -1.0; }}}},
+       {{"place",
+         [this](double t) {
+           seen_.stick.x = t < 1.0 ? 1.0 : std::fmod(t, 1.0) < 0.5 ? 0.5 : -0.5;
+         }}}},
       {"near_right", {{"was_right", [this](double t) { seen_.stick.x = t > 0.5 ? 1.0 : 0.0; }}}},
       {"near_left", {{"was_left", [this](double t) { seen_.stick.y = t > 0.5 ? 1.0 : 0.0; }}}},
       {"near_ahead", {{"was_ahead", [this](double t) { seen_.stick.x = t > 0.5 ? 1.0 : 0.0; }}}},
