@@ -49,3 +49,4 @@ def test_a_session_by_the_robots_own_sensors_reaches_its_goal(session, tmp_path)
     log = next(tmp_path.glob("session-*.log")).read_text()
     assert "A prior map of" in log
     assert "Map taken" in log
+    assert "TF_REPEATED" not in log, "a line for each step of the simulator"

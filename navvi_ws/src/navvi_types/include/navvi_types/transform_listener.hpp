@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "navvi_types/subscribe.hpp"
 
@@ -97,7 +98,12 @@ class TransformListener {
     }
     last_ = now;
     const std::string publisher = event.getPublisherName();
-    for (const geometry_msgs::TransformStamped& one : event.getConstMessage()->transforms) {
+    std::vector<geometry_msgs::TransformStamped> transforms = event.getConstMessage()->transforms;
+    // Or the place held would stand in the way of the one that comes with the same stamp.
+    std::stable_partition(transforms.begin(), transforms.end(), [this](const auto& one) {
+      return without_slash(one.child_frame_id) == place_.odom_frame();
+    });
+    for (const geometry_msgs::TransformStamped& one : transforms) {
       const double ahead = (one.header.stamp - now).toSec();
       if (!fixed && ahead > kMostAhead) {
         ROS_WARN_THROTTLE(5.0, "A transform from %s to %s by %s was dropped: it is %.1f s ahead.",
