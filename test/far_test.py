@@ -46,9 +46,12 @@ while not rospy.is_shutdown():
 class Session:
     def __init__(self, folder):
         self.folder, self.wire, self.processes = folder, far.Wire(), []
-        self.env = dict(os.environ, HOME=str(folder), ROS_MASTER_URI=f"http://{far.ROBOT}:11311", ROS_LOG_DIR=str(folder))
+        self.env = dict(os.environ, HOME=str(folder), ROS_LOG_DIR=str(folder))
         self.robot = self.start(self.wire.robot, "./navvi", "robot", "start", f"address:={far.ROBOT}", f"world:={WORLD}", "seed:=3",
                                 output=folder / "robot.txt")
+        # Another session of this machine may hold the first port.
+        self.at = eventually(lambda: re.search(r"run robot:=(\S+)", (folder / "robot.txt").read_text()), 60)[1]
+        self.env["ROS_MASTER_URI"] = f"http://{self.at}"
         assert eventually(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 300)
 
     def start(self, side, *words, output=None, **more):
@@ -63,7 +66,7 @@ class Session:
 
     def drive(self, *words):
         """The simulated person's session; what it prints."""
-        run = subprocess.run([*self.wire.person.enter, "./navvi", "run", f"robot:={far.ROBOT}", "operator:=simulated", "rviz:=false",
+        run = subprocess.run([*self.wire.person.enter, "./navvi", "run", f"robot:={self.at}", "operator:=simulated", "rviz:=false",
                               "limit:=120", f"out:={self.folder}", *words], env=self.env, cwd=ROOT, capture_output=True, text=True, timeout=400)
         return run.stdout + run.stderr
 
