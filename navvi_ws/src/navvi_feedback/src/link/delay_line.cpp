@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kAgain = 0.2;   // s, after which a packet is sent again at the earliest (Linux)
 constexpr double kEvery = 60.0;  // s, from one outage to the next
+constexpr double kOutageAt = 30.0;  // s of each such time; alike for all that is sent
 
 }  // namespace
 
@@ -16,16 +17,15 @@ void LinkConfig::describe(navvi_config::Visitor& visit) {
   visit(delay, "delay", Range{0.0, 5.0}, "s",
         "of a simulated connection between person and robot, one way");
   visit(jitter, "jitter", Range{0.0, 1.0}, "s",
-        "mean of what comes on top of it, drawn for each message; none overtakes another");
+        "mean of what comes on top of it, drawn for each message; only commands overtake one another");
   visit(loss, "loss", Range{0.0, 0.2}, "",
         "share of its packets; each holds up its topic until it is sent again, but commands");
   visit(outage, "outage", Range{0.0, 30.0}, "s", "for which it is silent once a minute");
 }
 
-bool Channel::silent(double sent) {
-  if (outage_ == 0.0) outage_ = sent + random_.uniform(0.2, 1.0) * kEvery;
-  while (sent >= outage_ + config_.outage) outage_ += kEvery;
-  return config_.outage > 0.0 && sent >= outage_;
+double Channel::outage_left(double sent) const {
+  const double since = std::fmod(sent, kEvery) - kOutageAt;
+  return since >= 0.0 && since < config_.outage ? config_.outage - since : 0.0;
 }
 
 double Channel::way() {
@@ -34,14 +34,15 @@ double Channel::way() {
 }
 
 double Channel::in_stream(double sent) {
-  double at = (silent(sent) ? outage_ + config_.outage : sent) + way();
+  double at = sent + outage_left(sent) + way();
   if (config_.loss > 0.0 && random_.chance(config_.loss))
     at += std::max(kAgain, 2.0 * config_.delay);
   return last_ = std::max(last_, at);
 }
 
 std::optional<double> Channel::alone(double sent) {
-  if (silent(sent) || (config_.loss > 0.0 && random_.chance(config_.loss))) return std::nullopt;
+  const bool lost = config_.loss > 0.0 && random_.chance(config_.loss);
+  if (lost || outage_left(sent) > 0.0) return std::nullopt;
   return sent + way();
 }
 

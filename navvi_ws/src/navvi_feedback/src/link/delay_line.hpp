@@ -25,14 +25,13 @@ class Channel {
   [[nodiscard]] std::optional<double> alone(double sent);
 
  private:
-  /// In an outage, which is that of outage_.
-  [[nodiscard]] bool silent(double sent);
+  /// s; 0 outside of an outage
+  [[nodiscard]] double outage_left(double sent) const;
   [[nodiscard]] double way();
 
   LinkConfig config_;
   navvi_types::Random random_;
-  double outage_ = 0.0;  ///< s, when the next one begins
-  double last_ = 0.0;    ///< s, of the last arrival in the stream
+  double last_ = 0.0;  ///< s, of the last arrival in the stream
 };
 
 /// Hands over values when they have arrived.
