@@ -37,7 +37,8 @@ def navvi(*words, **variables):
 
 def sound(folder, driver="wave"):
     """The environment of a mixer that writes what is heard to sound.wav of the folder, or has no device at all (none)."""
-    (folder / "alsoft").write_text(f"[general]\ndrivers = {driver}\n[wave]\nfile = {folder}/sound.wav\n")
+    shipped = (ROOT / "navvi_ws/src/navvi_feedback/config/alsoft.conf").read_text()
+    (folder / "alsoft").write_text(f"{shipped}drivers = {driver}\n[wave]\nfile = {folder}/sound.wav\n")
     return {"ALSOFT_CONF": str(folder / "alsoft")}
 
 

@@ -138,11 +138,10 @@ void Mixer::open(Status::Device otherwise) {
                                  ? "OpenAL finds no audio device"
                                  : "OpenAL cannot open the device \"" + config_.device + "\"");
   }
-  // A hundred mixes a second: what is stopped is silent within some 10 ms.
   const ALCint hrtf = config_.hrtf == "auto" ? ALC_DONT_CARE_SOFT
                       : config_.hrtf == "on" ? ALC_TRUE
                                              : ALC_FALSE;
-  const std::array<ALCint, 5> attributes = {ALC_REFRESH, 100, ALC_HRTF_SOFT, hrtf, 0};
+  const std::array<ALCint, 3> attributes = {ALC_HRTF_SOFT, hrtf, 0};
   handles_->context = alcCreateContext(handles_->device, attributes.data());
   alGetError();
   if (handles_->context != nullptr && alcMakeContextCurrent(handles_->context) == ALC_TRUE) {
