@@ -14,6 +14,7 @@ from . import measures, table
 from .measures import LEAST, MEASURES, RESAMPLES
 
 SEED = 20260101  # of the bootstrap: the same data give the same interval
+LEAST_ERROR = 1e-6  # of a logarithm of a ratio, below which there is none but that of the processor's rounding
 MOST_ERROR = 5.0  # of a logarithm of a ratio, beyond which there is no estimate
 
 
@@ -211,25 +212,26 @@ def _of_few(fit, values):
     come out too small, and Student's distribution with as many degrees of freedom as participants beyond the model's terms."""
     free = max(1, values["participant"].nunique() - len(fit.params))
     estimate, error = fit.params["second"], fit.bse["second"]
+    if not error > LEAST_ERROR:
+        raise ValueError("all participants differ alike between the conditions")
     return estimate, error, 2 * scipy.stats.t.sf(abs(estimate / error), free), scipy.stats.t.ppf(0.975, free)
 
 
 def _count(result, values, differences):
-    """Negative binomial by GEE, participants as clusters, over the exposure; its dispersion from a plain negative binomial model first."""
-    predictors, exposure = _predictors(values), values["exposure"].to_numpy()
-    if values["value"].sum() == 0:
+    """Negative binomial by GEE, participants as clusters, over the exposure. It begins at a Poisson model, which gives its dispersion by the
+    method of moments: a likelihood has no maximum where counts vary less than Poisson's, and where its search ends is the processor's."""
+    predictors, exposure, counts = _predictors(values), values["exposure"].to_numpy(), values["value"].to_numpy()
+    if counts.sum() == 0:
         raise ValueError("nothing was counted")
     if values.groupby("second")["value"].sum().min() == 0:
         result.note = "nothing was counted under one of the conditions, so that no ratio can be estimated"
         return _number(result, values, differences)
-    try:
-        dispersion = float(sm.NegativeBinomial(values["value"], predictors, exposure=exposure).fit(disp=False).params["alpha"])
-    except np.linalg.LinAlgError:
-        dispersion = 1.0
-    dispersion = min(max(dispersion, 1e-3), 10.0) if np.isfinite(dispersion) else 1.0
-    family = sm.families.NegativeBinomial(alpha=dispersion)
-    fit = sm.GEE(values["value"], predictors, groups=values["participant"], family=family, cov_struct=sm.cov_struct.Exchangeable(), exposure=exposure)
-    return _ratio(result, "negative binomial, GEE by participant", "rate ratio", *_of_few(fit.fit(cov_type="bias_reduced"), values))
+    plain = sm.GLM(counts, predictors, family=sm.families.Poisson(), exposure=exposure).fit()
+    expected, free = plain.fittedvalues.to_numpy(), max(1, len(values) - predictors.shape[1])
+    dispersion = float(np.clip(((counts - expected) ** 2 - expected) @ expected ** -2 / free, 1e-3, 10.0))
+    fit = sm.GEE(counts, predictors, groups=values["participant"], family=sm.families.NegativeBinomial(alpha=dispersion),
+                 cov_struct=sm.cov_struct.Exchangeable(), exposure=exposure).fit(cov_type="bias_reduced", start_params=plain.params.to_numpy())
+    return _ratio(result, "negative binomial, GEE by participant", "rate ratio", *_of_few(fit, values))
 
 
 def _time(result, values, _):
