@@ -4,11 +4,13 @@ import os
 import re
 import signal
 import subprocess
+import threading
 import time
 
 import pytest
 
 import far
+from clock import Clock
 from sessions import ROOT, WORLD, eventually, summary
 
 pytestmark = pytest.mark.skipif(not far.is_possible(), reason="network namespaces and TUN devices need the rights of root")
@@ -64,10 +66,10 @@ class Session:
     def asks(self, *words):
         return subprocess.run([*self.wire.robot.enter, *words], env=dict(self.env, ROS_IP=far.ROBOT), capture_output=True).returncode == 0
 
-    def drive(self, *words):
+    def drive(self, *words, **variables):
         """The simulated person's session; what it prints."""
         run = subprocess.run([*self.wire.person.enter, "./navvi", "run", f"robot:={self.at}", "operator:=simulated", "rviz:=false",
-                              "limit:=120", f"out:={self.folder}", *words], env=self.env, cwd=ROOT, capture_output=True, text=True, timeout=400)
+                              "limit:=120", f"out:={self.folder}", *words], env=dict(self.env, **variables), cwd=ROOT, capture_output=True, text=True, timeout=400)
         return run.stdout + run.stderr
 
     def close(self):
@@ -98,6 +100,25 @@ def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(sessi
     assert result["bag"] == "ok" and (trial / "trial.bag").stat().st_size > 1e5, sorted(trial.iterdir())
     assert not (trial / "trial.bag.txt").exists() and not list((session.folder / ".navvi/bags").iterdir()), "it was fetched from there"
     assert subprocess.run(["rosbag", "check", str(trial / "trial.bag")], capture_output=True).returncode == 0
+
+
+def test_a_clock_of_the_person_that_is_wrong_is_set_and_drifts_changes_nothing(session, tmp_path):
+    session.wire.delay = 0.1
+    clock = Clock(tmp_path, ahead=10.0)
+    drift = clock.drift(0.01)  # a hundred times what a bad clock does
+
+    def go_back():
+        if eventually(lambda: list(session.folder.glob("trial-*/journal.csv")), 200):
+            time.sleep(8.0)
+            clock.set(clock.ahead - 12.0)
+    setting = threading.Thread(target=go_back)
+    setting.start()
+    said = session.drive(**clock.env)
+    assert not setting.is_alive(), "the clock was set while the person drove"
+    drift.set()
+    result = summary(session.folder)
+    assert "The goal was reached" in said and result["safe_stop_count"] == "0", said
+    assert 0.2 <= float(result["round_trip"]) < 0.5, result
 
 
 def test_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session):

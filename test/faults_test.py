@@ -7,13 +7,13 @@ import re
 import shutil
 import signal
 import socket
-import struct
 import subprocess
 import tempfile
 import time
 
 import pytest
 
+from clock import Clock
 from display import Display
 from sessions import ROOT, WORLD, eventually, rows_of, summary
 
@@ -140,19 +140,16 @@ def driven(folder):
 
 
 def test_S5_a_clock_that_is_set_by_an_hour_and_back_changes_no_motion_and_no_row(session, tmp_path):
-    library, clock = tmp_path / "set_clock.so", tmp_path / "clock"
-    subprocess.run(["g++", "-shared", "-fPIC", "-O1", "-o", str(library), str(ROOT / "test/set_clock.cpp"), "-ldl"], check=True)
-    clock.write_bytes(struct.pack("=q", 0))
-    begun = session(f"world:={WORLD}", "seed:=3", LD_PRELOAD=str(library), SET_CLOCK=str(clock))
+    clock = Clock(tmp_path)
+    begun = session(f"world:={WORLD}", "seed:=3", **clock.env)
     for metres, hours in ((0.5, 1), (2.5, -1)):
         begun.wait_until(lambda: driven(tmp_path) > metres, 120, f"the robot has driven {metres} m")
-        with open(clock, "r+b") as file:  # the programs have it mapped
-            file.write(struct.pack("=q", 3600 * hours))
+        clock.set(3600.0 * hours)
     begun.wait_until_ended(60)
-    result = summary(tmp_path)
-    assert (result["result"], result["bag"], result["safe_stop_count"], result["missed_messages"]) == ("reached", "ok", "0", "0"), result
-    folder = next(tmp_path.glob("trial-*"))
+    folder, result = next(tmp_path.glob("trial-*")), summary(tmp_path)
     rows = rows_of(folder / "journal.csv")
+    stops = [row for row in rows if row["type"] == "SAFE_STOP"]
+    assert (result["result"], result["bag"], result["safe_stop_count"], result["missed_messages"]) == ("reached", "ok", "0", "0"), stops
     assert [int(row["seq"]) for row in rows] == list(range(1, len(rows) + 1))
     calendar = [datetime.datetime.fromisoformat(text) for row in rows for text in re.findall("calendar=([0-9T:-]+)", row["fields"])]
     assert max(calendar) - min(calendar) > datetime.timedelta(hours=1.9), "the clock of trial_node was not set"

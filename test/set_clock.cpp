@@ -1,4 +1,4 @@
-// Preloaded into a program, it adds to the calendar time that the program reads the seconds that the file $SET_CLOCK holds as eight
+// Preloaded into a program, it adds to the calendar time that the program reads the nanoseconds that the file $SET_CLOCK holds as eight
 // bytes, now and whenever they change: as if somebody had set the computer's clock. The monotonic clock stays. A wait until a calendar
 // time ends as it would on that clock; one that had begun before the clock was set is not changed.
 #include <dlfcn.h>
@@ -14,15 +14,21 @@
 namespace {
 
 constexpr time_t kCalendar = 1'000'000'000;  // s; a later time is one of the calendar, an earlier one of the monotonic clock
+constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 
-time_t set_by() {
-  static const volatile std::int64_t* const seconds = [] {
+std::int64_t set_by() {
+  static const volatile std::int64_t* const ahead = [] {
     const char* const path = std::getenv("SET_CLOCK");
     const int file = path != nullptr ? ::open(path, O_RDONLY | O_CLOEXEC) : -1;
     void* const mapped = file < 0 ? MAP_FAILED : ::mmap(nullptr, sizeof(std::int64_t), PROT_READ, MAP_SHARED, file, 0);
     return mapped == MAP_FAILED ? nullptr : static_cast<const std::int64_t*>(mapped);
   }();
-  return seconds != nullptr ? static_cast<time_t>(*seconds) : 0;
+  return ahead != nullptr ? *ahead : 0;
+}
+
+timespec plus(const timespec& time, std::int64_t ahead) {
+  const std::int64_t all = time.tv_sec * kSecond + time.tv_nsec + ahead;
+  return {all / kSecond, all % kSecond};
 }
 
 template <typename F>
@@ -31,7 +37,7 @@ F next(F, const char* name) {
 }
 
 timespec real(const timespec& wanted) {
-  return wanted.tv_sec > kCalendar ? timespec{wanted.tv_sec - set_by(), wanted.tv_nsec} : wanted;
+  return wanted.tv_sec > kCalendar ? plus(wanted, -set_by()) : wanted;
 }
 
 }  // namespace
@@ -41,14 +47,16 @@ extern "C" {
 int clock_gettime(clockid_t clock, timespec* now) noexcept {
   static const auto system = next(&clock_gettime, "clock_gettime");
   const int result = system(clock, now);
-  if (result == 0 && (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE)) now->tv_sec += set_by();
+  if (result == 0 && (clock == CLOCK_REALTIME || clock == CLOCK_REALTIME_COARSE)) *now = plus(*now, set_by());
   return result;
 }
 
 int gettimeofday(timeval* now, void* zone) noexcept {
   static const auto system = next(&gettimeofday, "gettimeofday");
   const int result = system(now, zone);
-  if (result == 0) now->tv_sec += set_by();
+  if (result != 0) return result;
+  const timespec ahead = plus({now->tv_sec, 1000 * now->tv_usec}, set_by());
+  *now = {ahead.tv_sec, ahead.tv_nsec / 1000};
   return result;
 }
 
