@@ -1,7 +1,9 @@
 #include "record/events.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <numeric>
 
 #include "record/row.hpp"
 
@@ -46,6 +48,15 @@ std::string duration_of(const std::vector<Row>& rows, std::size_t at) {
   return "n/a";
 }
 
+/// Places in `rows`. What a node stamped may have come after what happened later.
+std::vector<std::size_t> by_onset(const std::vector<Row>& rows) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return rows[a].sim_ns < rows[b].sim_ns; });
+  return order;
+}
+
 /// The first of these fields that a row has.
 std::string any_of(const Row& row, const std::vector<std::string>& names) {
   for (const std::string& name : names)
@@ -63,7 +74,7 @@ std::string events_csv(const Trial& trial) {
   const std::vector<Row>& rows = trial.rows;
   const Row* start = trial.first("TRIAL_START");
   if (start == nullptr) return text;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
+  for (const std::size_t i : by_onset(rows)) {
     const Row& row = rows[i];
     if (row.type == "PROXIMITY_LEAVE" || row.type == "CUE_END" || row.type == "PROGRESS" ||
         row.type == "CLOCK_OFFSET")

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "record/events.hpp"
 
@@ -316,6 +318,18 @@ TEST(Events, tell_cues_by_their_words_and_how_long_they_were_heard) {
   EXPECT_NE(events_csv(trial).find("7.000,1.250,trial-1,sub-01,2026-01-31T12:00:00.250Z,cue,"),
             std::string::npos);
   EXPECT_NE(events_csv(trial).find(",turn now,turn_now\n"), std::string::npos);
+}
+
+TEST(Events, stand_in_the_order_of_their_onsets_however_late_they_came) {
+  Made trial = example();
+  trial.add(103.0, "CUE", Fields().set("id", "9").set("kind", "turn_now").set("text", "turn now"));
+  std::istringstream lines(events_csv(trial));
+  std::vector<double> onsets;
+  std::string line;
+  std::getline(lines, line);  // the header
+  while (std::getline(lines, line)) onsets.push_back(std::stod(line));
+  EXPECT_NE(std::find(onsets.begin(), onsets.end(), 3.0), onsets.end());
+  EXPECT_TRUE(std::is_sorted(onsets.begin(), onsets.end()));
 }
 
 TEST(Events, of_nothing_are_a_header) {
