@@ -25,6 +25,7 @@ constexpr double kPathHeight = 0.08;  // m, above the floor, so that it is not i
 constexpr double kGoalHeight = 2.5;   // m
 constexpr double kGoalRadius = 1.0;   // m
 constexpr double kStopRadius = 0.4;   // m, about as the robot
+constexpr double kStopHeight = 0.5;   // m, as its top, which would hide what lies on the floor
 constexpr double kSlight = 0.26;      // rad, about half an hour on the clock: no arrow
 constexpr double kLabelHeight = 0.7;  // m, of the letters
 constexpr int kRingPoints = 48;
@@ -146,7 +147,7 @@ visualization_msgs::MarkerArray guide_markers(const std::optional<Guidance>& gui
   add_path(path, markers);
   add_goal(guidance->goal, words, markers);
   add_turn(*guidance, path, turn, markers);
-  if (stop) markers[7] = strip("stop", 0, ring(*stop, kStopRadius), 0.1, kPathHeight + 2.0 * kAbove, kWhite);
+  if (stop) markers[7] = strip("stop", 0, ring(*stop, kStopRadius), 0.1, kStopHeight, kWhite);
   for (Marker& marker : markers) marker.pose.position.z += guidance->floor;
   return array;
 }

@@ -161,8 +161,10 @@ class Dresser {
   [[nodiscard]] Marker dress(const Marker& marker) const {
     if (marker.action != Marker::ADD) return marker;
     if (marker.ns == "path") return path(marker);
-    if (marker.ns == "goal") return marker.type == Marker::CYLINDER ? pole(marker) : ring(marker);
-    if (marker.ns == "stop") return ring(marker);
+    if (marker.ns == "goal")
+      return marker.type == Marker::CYLINDER ? pole(marker) : ring(marker, kHeight + 3.0 * kLayer);
+    if (marker.ns == "stop" && !marker.points.empty())
+      return ring(marker, marker.points.front().z);
     if (marker.ns == "turn") return arrow(marker);
     if (marker.ns == "robot" && marker.type == Marker::CYLINDER) return robot(marker);
     return knows(marker) ? recolored(marker) : marker;
@@ -239,13 +241,14 @@ class Dresser {
     return list;
   }
 
-  [[nodiscard]] Marker ring(const Marker& marker) const {
+  /// \param height  m, above the floor
+  [[nodiscard]] Marker ring(const Marker& marker, double height) const {
     std::vector<Eigen::Vector2d> line;
     for (const geometry_msgs::Point& at : marker.points) line.emplace_back(at.x, at.y);
     Marker list = triangles(marker);
     const double half = 0.5 * vision_.width * marker.scale.x;
-    add_borders(line, half, half + kEdge, kHeight + 3.0 * kLayer, vision_.dark, list);
-    add_ribbon(line, -half, half, kHeight + 3.0 * kLayer, vision_.bright, list);
+    add_borders(line, half, half + kEdge, height, vision_.dark, list);
+    add_ribbon(line, -half, half, height, vision_.bright, list);
     return list;
   }
 
