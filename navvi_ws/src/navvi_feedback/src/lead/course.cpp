@@ -12,7 +12,7 @@ constexpr double kPatience = 2.0;     // s
 constexpr double kKeeps = 0.25;       // m, from what stands ahead
 constexpr double kKeepsMoving = 0.6;  // m, from what moves
 constexpr double kBrakes = 1.0;       // s, over which what is left of the gap is driven
-constexpr double kReaction = 0.6;     // s, that a person takes to a slower speed
+constexpr double kReaction = 1.0;     // s, that a person takes to a slower speed
 constexpr double kCreep = 0.15;       // m/s, towards what stands: the path leads round it
 constexpr double kBeside = 0.3;       // m, gap to what stands beside the robot
 constexpr double kBehind = -0.2;      // m, in base_link; what is farther back is passed
@@ -27,7 +27,7 @@ double allowed(const std::vector<NearThing>& nearby, double half_lane, double sp
       most = std::min(most, std::max(kCreep, full * thing.gap / kBeside));
     if (thing.nearest.x() <= 0.0 || std::abs(thing.nearest.y()) > half_lane) continue;
     const double keeps =
-        thing.moving ? kKeepsMoving + kReaction * std::max(0.0, speed) : kKeeps;
+        (thing.moving ? kKeepsMoving : kKeeps) + kReaction * std::max(0.0, speed);
     most = std::min(most, std::max(thing.moving ? 0.0 : kCreep, (thing.gap - keeps) / kBrakes));
   }
   return most;
