@@ -9,6 +9,7 @@ namespace {
 constexpr double kHalfLane = 0.6;     // m; what is farther to the side is passed at full speed
 constexpr double kSqueezes = 0.37;    // m, likewise once the robot has stood for kPatience
 constexpr double kPatience = 2.0;     // s
+constexpr double kLongest = 8.0;      // s; what is still there then must be driven round
 constexpr double kKeeps = 0.25;       // m, from what stands ahead
 constexpr double kKeepsMoving = 0.6;  // m, from what moves
 constexpr double kBrakes = 1.0;       // s, over which what is left of the gap is driven
@@ -61,8 +62,9 @@ std::optional<Course> Pilot::update(std::optional<double> off,
   }
   const double bend = std::max(0.0, 1.0 - std::abs(*off) / kOnTheSpot);
   double free = allowed(nearby, kHalfLane, speed, full);
-  if (free > 0.0) went_ = time;
-  if (time - went_ > kPatience) free = std::min(kCreep, allowed(nearby, kSqueezes, speed, full));
+  if (free > 0.0 || !went_) went_ = time;
+  if (time - *went_ > kPatience) free = std::min(kCreep, allowed(nearby, kSqueezes, speed, full));
+  if (time - *went_ > kLongest) free = kCreep;
   if (free <= 0.0 && std::abs(*off) < kDue) return std::nullopt;
   const double aside = std::abs(*off) < kOnTheSpot ? away(nearby) : 0.0;
   return Course{*off + aside, std::min(bend, free / full)};

@@ -15,7 +15,8 @@ struct Course {
 };
 
 /// Says how fast the way ahead may be driven: slower into a turn, and towards what stands or moves
-/// ahead; nothing where the robot is to stand. Past what waits beside the lane it creeps.
+/// ahead; nothing where the robot is to stand. Past what waits beside the lane it creeps, and round
+/// what does not go away.
 class Pilot {
  public:
   /// Call it at 50 Hz.
@@ -28,7 +29,7 @@ class Pilot {
                                              double full, double time);
 
  private:
-  double went_ = 0.0;  ///< s, when the way was last free to drive, or there was none
+  std::optional<double> went_;  ///< s, when the way was last free to drive, or there was none
 };
 
 /// rad; more is turned on the spot.

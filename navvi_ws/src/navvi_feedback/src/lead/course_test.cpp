@@ -30,6 +30,8 @@ TEST(Pilot, shows_full_speed_straight_on_less_in_a_bend_and_none_to_turn_on_the_
 
 TEST(Pilot, slows_down_before_what_is_ahead_and_stands_before_what_moves) {
   EXPECT_NEAR(shown(0.0, {thing(0.7, 1.0, 0.0, false)}).value().speed, 0.45 / kFull, 1e-9);
+  EXPECT_NEAR(shown(0.0, {thing(1.0, 1.3, 0.0, false)}, 0.5).value().speed, 0.25 / kFull, 1e-9)
+      << "a person goes on for a second";
   EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.7, 1.0, 0.8, false)}).value().speed, 1.0) << "beside";
   EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.7, -1.0, 0.0, true)}).value().speed, 1.0) << "behind";
   EXPECT_FALSE(shown(0.0, {thing(0.5, 0.9, 0.0, true)}));
@@ -46,6 +48,20 @@ TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
   ASSERT_TRUE(course);
   EXPECT_GT(course->speed, 0.0);
   EXPECT_LT(course->speed, 0.2);
+}
+
+TEST(Pilot, leads_slowly_round_what_does_not_go_away) {
+  Pilot pilot;
+  const std::vector<NearThing> waits = {thing(0.2, 0.5, 0.0, true)};
+  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, 100.0));
+  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, 107.9));
+  for (const double time : {108.1, 120.0}) {
+    const auto course = pilot.update(0.0, waits, 0.0, kFull, time);
+    ASSERT_TRUE(course);
+    EXPECT_GT(course->speed, 0.0);
+    EXPECT_LT(course->speed, 0.2);
+  }
+  EXPECT_DOUBLE_EQ(pilot.update(0.0, {}, 0.0, kFull, 121.0).value().speed, 1.0);
 }
 
 TEST(Flow, is_between_the_ears_by_the_angle_and_as_much_as_the_speed) {
