@@ -56,6 +56,19 @@ TEST_F(DriveOf, a_returning_stick_that_is_held_moves_nothing) {
   EXPECT_EQ(hold(Stick{0.0, 1.0}, 2.0)->linear, 0.0);
 }
 
+TEST_F(DriveOf, a_stick_that_comes_back_arms_anew_and_begins_from_a_standstill) {
+  arm();
+  hold(Stick{1.0, 1.0}, 2.0);
+  hold(std::nullopt, kStep);
+  hold(Stick{}, 0.28);
+  EXPECT_FALSE(drive_.armed());
+  hold(Stick{}, 0.04);
+  EXPECT_TRUE(drive_.armed());
+  const Velocity velocity = *hold(Stick{1.0, 1.0}, kStep);
+  EXPECT_NEAR(velocity.linear, config_.acceleration * kStep, 1e-9);
+  EXPECT_NEAR(velocity.angular, config_.turn_acceleration * kStep, 1e-9);
+}
+
 TEST_F(DriveOf, drift_within_the_dead_zone_counts_as_neutral) {
   hold(Stick{0.05, -0.05}, 0.4);
   EXPECT_TRUE(drive_.armed());
@@ -99,6 +112,16 @@ TEST_F(DriveOf, never_changes_faster_than_its_limits) {
     EXPECT_LE(std::abs(velocity.angular - last.angular), config_.turn_acceleration * kStep + 1e-12);
     EXPECT_LE(std::abs(velocity.linear), config_.max_forward);
     last = velocity;
+  }
+}
+
+TEST_F(DriveOf, slows_down_by_the_brakes_also_where_the_stick_is_thrown_over) {
+  for (const double to : {0.0, 0.2, -1.0}) {
+    arm();
+    hold(Stick{0.0, 1.0}, 3.0);
+    EXPECT_NEAR(hold(Stick{0.0, to}, kStep)->linear,
+                config_.max_forward - config_.deceleration * kStep, 1e-9);
+    hold(Stick{}, 2.0);
   }
 }
 
