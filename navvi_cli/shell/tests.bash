@@ -39,13 +39,20 @@ tests() {  # TIER [FILTER]
   # Twice as many as there are processors: what computes counts as two (PROCESSORS).
   with_progress "testing" "$log" tests_percent ctest -j"$((2 * $(nproc)))" "${selected[@]}" --repeat until-pass:2 --output-on-failure \
     --output-junit "$results.xml" || true
-  sed -n 's/.*Test *#[0-9]*: \([^ ]*\) .*\*\*\*.*/tried twice: \1/p' "$log" | sort -u
+  tried_twice "$log"
   if [[ $tier == release && $filter == . ]]; then
     sanitized_tests "" || status=$?
   fi
   echo "The output of the tests is in $log."
   /usr/bin/python3 "$root/test/count_results.py" "$results.xml" "$results" || status=$?
   return "$status"
+}
+
+# Names the programs that failed once, and what failed in them.
+tried_twice() {  # LOG
+  awk '$2 == "Test" || $3 == "Test" || $1 == "Start" { name = "" }
+    /Test +#[0-9]+: .*\*\*\*/ { sub(/.*Test +#[0-9]+: /, ""); name = $1; if (!told[name]++) print "tried twice: " name }
+    name != "" && /^(\[  FAILED  \] .*ms\)|FAILED |E  )/ && shown[name]++ < 6 { print "  " substr($0, 1, 200) }' "$1"
 }
 
 # "12/40 Test #7: NAME ...": a part of a package, such as navvi_sim/live/world, takes a twentieth of the time of others.
