@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <iterator>
 #include <stdexcept>
 
 #include "record/figures.hpp"
@@ -241,6 +242,32 @@ TEST_F(Recovering, still_calls_it_invalid_if_it_was_itself_cut_short) {
       navvi_files::write_atomically(path_ / "journal.torn", whole.substr(good.size())).has_value());
   put(good);
   EXPECT_EQ(recover(path_).rows.back().fields.get("result"), "invalid");
+}
+
+TEST_F(Recovering, sets_each_torn_end_aside_once_and_overwrites_none) {
+  const std::string whole = finished();
+  const auto aside = [&](const std::string& name) {
+    return navvi_files::read_file(path_ / name).value_or("");
+  };
+  for (const char* torn : {"trial-1,4,a", "trial-1,4,b", "trial-1,4,a"}) {
+    put(whole + torn);
+    EXPECT_TRUE(recover(path_).changed);
+  }
+  EXPECT_EQ(aside("journal.torn"), "trial-1,4,a");
+  EXPECT_EQ(aside("journal.torn.2"), "trial-1,4,b");
+  EXPECT_FALSE(fs::exists(path_ / "journal.torn.3"));
+  EXPECT_EQ(bytes(), whole);
+}
+
+TEST_F(Recovering, keeps_no_file_open) {
+  const auto opened = [] {
+    const fs::directory_iterator files("/proc/self/fd");
+    return std::distance(begin(files), end(files));
+  };
+  put(finished());
+  const auto before = opened();
+  for (int i = 0; i < 5; ++i) (void)recover(path_);
+  EXPECT_EQ(opened(), before);
 }
 
 TEST_F(Recovering, writes_a_missing_summary_again) {
