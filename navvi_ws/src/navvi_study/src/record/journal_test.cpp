@@ -122,6 +122,33 @@ TEST_F(AJournal, survives_interrupted_and_short_writes) {
   EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
 }
 
+TEST_F(AJournal, is_on_the_disk_with_its_folders_before_a_trial_begins) {
+  const std::vector<fs::path> all = {fs::canonical(path_) / "journal.csv", fs::canonical(path_),
+                                     fs::canonical(path_).parent_path()};
+  std::vector<fs::path> synced;
+  std::size_t fails = all.size();
+  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
+  calls.fdatasync = calls.fsync = [&](int file) {
+    synced.push_back(fs::read_symlink("/proc/self/fd/" + std::to_string(file)));
+    return synced.size() - 1 == fails ? -1 : 0;
+  };
+  (void)open(calls);
+  EXPECT_EQ(synced, all);
+  for (fails = 0; fails < all.size(); ++fails) {
+    fs::remove(journal());
+    synced.clear();
+    EXPECT_THROW((void)open(calls), std::runtime_error) << all[fails];
+  }
+}
+
+TEST_F(AJournal, that_lacks_a_row_is_damaged_there) {
+  std::string whole = finished();
+  const auto second = whole.find("trial-1,2,");
+  whole.erase(second, whole.find('\n', second) + 1 - second);
+  EXPECT_EQ(read_journal(whole).rows.size(), 1u);
+  EXPECT_EQ(read_journal(whole).damage, "the journal is damaged at row 2");
+}
+
 TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
   navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   bool fail = false;
