@@ -76,7 +76,9 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   for (const sounds::Play& play : sounds.update(decided, now, led, teacher.taught(), time))
     out.plays.push_back(play);
   auto course = pilot.update(lasts(now.lead) && !teacher.speaks() ? led.off : std::nullopt,
-                             now.nearby, now.motion().linear, config.drive.max_forward, time);
+                             now.nearby,
+                             now.lead == Lead::hand ? lead::kBesideByHand : lead::kBesideBySound,
+                             now.motion().linear, config.drive.max_forward, time);
   if (now.lead == Lead::flow) following.update(course, now.motion(), time);
   if (const auto& lesson_course = teacher.taught().course) {
     course = lesson_course->course;

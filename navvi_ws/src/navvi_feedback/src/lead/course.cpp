@@ -15,17 +15,18 @@ constexpr double kKeepsMoving = 0.6;  // m, from what moves
 constexpr double kBrakes = 1.0;       // s, over which what is left of the gap is driven
 constexpr double kReaction = 1.0;     // s, that a person takes to a slower speed
 constexpr double kCreep = 0.15;       // m/s, towards what stands: the path leads round it
-constexpr double kBeside = 0.3;       // m, gap to what stands beside the robot
+constexpr double kNoticed = 0.08;     // m/s; what is slower is shown as to stand
 constexpr double kBehind = -0.2;      // m, in base_link; what is farther back is passed
 constexpr double kAway = 0.3;         // rad
 constexpr double kDue = 0.1;          // rad; more is turned on the spot while the way is not free
 
 /// m/s that what is ahead, within so many m to either side, allows.
-double allowed(const std::vector<NearThing>& nearby, double half_lane, double speed, double full) {
+double allowed(const std::vector<NearThing>& nearby, double half_lane, double beside, double speed,
+               double full) {
   double most = full;
   for (const NearThing& thing : nearby) {
-    if (!thing.moving && thing.nearest.x() > kBehind && thing.gap < kBeside)
-      most = std::min(most, std::max(kCreep, full * thing.gap / kBeside));
+    if (!thing.moving && thing.nearest.x() > kBehind && thing.gap < beside)
+      most = std::min(most, std::max(kCreep, full * thing.gap / beside));
     if (thing.nearest.x() <= 0.0 || std::abs(thing.nearest.y()) > half_lane) continue;
     const double keeps =
         (thing.moving ? kKeepsMoving : kKeeps) + kReaction * std::max(0.0, speed);
@@ -35,12 +36,12 @@ double allowed(const std::vector<NearThing>& nearby, double half_lane, double sp
 }
 
 /// rad, clockwise, away from what stands beside the robot and is all but touched.
-double away(const std::vector<NearThing>& nearby) {
+double away(const std::vector<NearThing>& nearby, double beside) {
   double left = 0.0, right = 0.0;
   for (const NearThing& thing : nearby) {
-    if (thing.moving || thing.gap >= kBeside || thing.nearest.x() < kBehind) continue;
+    if (thing.moving || thing.gap >= beside || thing.nearest.x() < kBehind) continue;
     double& side = thing.nearest.y() > 0.0 ? left : right;
-    side = std::max(side, kAway * (1.0 - std::max(0.0, thing.gap) / kBeside));
+    side = std::max(side, kAway * (1.0 - std::max(0.0, thing.gap) / beside));
   }
   return left - right;
 }
@@ -54,19 +55,21 @@ haptics::Rumble flow_of(const Course& course) {
 }
 
 std::optional<Course> Pilot::update(std::optional<double> off,
-                                    const std::vector<NearThing>& nearby, double speed,
-                                    double full, double time) {
+                                    const std::vector<NearThing>& nearby, double beside,
+                                    double speed, double full, double time) {
   if (!off) {
     went_ = time;
     return std::nullopt;
   }
   const double bend = std::max(0.0, 1.0 - std::abs(*off) / kOnTheSpot);
-  double free = allowed(nearby, kHalfLane, speed, full);
-  if (free > 0.0 || !went_) went_ = time;
-  if (time - *went_ > kPatience) free = std::min(kCreep, allowed(nearby, kSqueezes, speed, full));
+  double free = allowed(nearby, kHalfLane, beside, speed, full);
+  if (free > kNoticed || !went_) went_ = time;
+  if (time - *went_ > kPatience)
+    free = std::min(kCreep, allowed(nearby, kSqueezes, beside, speed, full));
   if (time - *went_ > kLongest) free = kCreep;
+  if (free <= kNoticed) free = 0.0;
   if (free <= 0.0 && std::abs(*off) < kDue) return std::nullopt;
-  const double aside = std::abs(*off) < kOnTheSpot ? away(nearby) : 0.0;
+  const double aside = std::abs(*off) < kOnTheSpot ? away(nearby, beside) : 0.0;
   return Course{*off + aside, std::min(bend, free / full)};
 }
 

@@ -21,17 +21,20 @@ class Pilot {
  public:
   /// Call it at 50 Hz.
   /// \param off  rad, clockwise, from the nose to where to steer; nullopt: nowhere
+  /// \param beside  m, gap to what stands beside the robot, within which it is led away, and slowly
   /// \param speed  m/s, of the robot
   /// \param full  m/s, at full stick
   /// \param time  s, of a clock that does not run backwards
   [[nodiscard]] std::optional<Course> update(std::optional<double> off,
-                                             const std::vector<NearThing>& nearby, double speed,
-                                             double full, double time);
+                                             const std::vector<NearThing>& nearby, double beside,
+                                             double speed, double full, double time);
 
  private:
   std::optional<double> went_;  ///< s, when the way was last free to drive, or there was none
 };
 
+/// `beside`, as pulses show a turn later and more coarsely than a sound does.
+constexpr double kBesideBySound = 0.3, kBesideByHand = 0.4;  // m
 /// rad; more is turned on the spot.
 constexpr double kOnTheSpot = 0.8;
 

@@ -12,8 +12,8 @@ constexpr double kFull = 0.9;  // m/s
 std::optional<Course> shown(std::optional<double> off, const std::vector<NearThing>& nearby = {},
                             double speed = 0.0) {
   Pilot pilot;
-  (void)pilot.update(off, {}, speed, kFull, 9.9);
-  return pilot.update(off, nearby, speed, kFull, 10.0);
+  (void)pilot.update(off, {}, kBesideBySound, speed, kFull, 9.9);
+  return pilot.update(off, nearby, kBesideBySound, speed, kFull, 10.0);
 }
 
 NearThing thing(double gap, double x, double y, bool moving) {
@@ -42,26 +42,33 @@ TEST(Pilot, slows_down_before_what_is_ahead_and_stands_before_what_moves) {
 TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
   Pilot pilot;
   const std::vector<NearThing> waits = {thing(0.3, 0.5, 0.5, true)};
-  (void)pilot.update(0.0, {}, 0.0, kFull, 9.9);
-  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, 11.0));
-  const auto course = pilot.update(0.0, waits, 0.0, kFull, 12.5);
+  (void)pilot.update(0.0, {}, kBesideBySound, 0.0, kFull, 9.9);
+  EXPECT_FALSE(pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 11.0));
+  const auto course = pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 12.5);
   ASSERT_TRUE(course);
   EXPECT_GT(course->speed, 0.0);
   EXPECT_LT(course->speed, 0.2);
 }
 
+TEST(Pilot, takes_what_nobody_notices_for_standing) {
+  Pilot pilot;
+  const std::vector<NearThing> waits = {thing(0.64, 0.9, 0.0, true)};
+  EXPECT_FALSE(pilot.update(0.0, waits, kBesideByHand, 0.0, kFull, 100.0)) << "0.04 m/s";
+  EXPECT_TRUE(pilot.update(0.0, waits, kBesideByHand, 0.0, kFull, 109.0)) << "it does not go away";
+}
+
 TEST(Pilot, leads_slowly_round_what_does_not_go_away) {
   Pilot pilot;
   const std::vector<NearThing> waits = {thing(0.2, 0.5, 0.0, true)};
-  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, 100.0));
-  EXPECT_FALSE(pilot.update(0.0, waits, 0.0, kFull, 107.9));
+  EXPECT_FALSE(pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 100.0));
+  EXPECT_FALSE(pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 107.9));
   for (const double time : {108.1, 120.0}) {
-    const auto course = pilot.update(0.0, waits, 0.0, kFull, time);
+    const auto course = pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, time);
     ASSERT_TRUE(course);
     EXPECT_GT(course->speed, 0.0);
     EXPECT_LT(course->speed, 0.2);
   }
-  EXPECT_DOUBLE_EQ(pilot.update(0.0, {}, 0.0, kFull, 121.0).value().speed, 1.0);
+  EXPECT_DOUBLE_EQ(pilot.update(0.0, {}, kBesideBySound, 0.0, kFull, 121.0).value().speed, 1.0);
 }
 
 TEST(Flow, is_between_the_ears_by_the_angle_and_as_much_as_the_speed) {
