@@ -28,9 +28,10 @@ double allowed(const std::vector<NearThing>& nearby, double half_lane, double be
     if (!thing.moving && thing.nearest.x() > kBehind && thing.gap < beside)
       most = std::min(most, std::max(kCreep, full * thing.gap / beside));
     if (thing.nearest.x() <= 0.0 || std::abs(thing.nearest.y()) > half_lane) continue;
-    const double keeps =
-        (thing.moving ? kKeepsMoving : kKeeps) + kReaction * std::max(0.0, speed);
-    most = std::min(most, std::max(thing.moving ? 0.0 : kCreep, (thing.gap - keeps) / kBrakes));
+    // Whoever sets off is not shown what would be too fast a moment later.
+    const double slow = std::max(kCreep, (thing.gap - kKeeps) / (kBrakes + kReaction));
+    const double keeps = kKeepsMoving + kReaction * std::max(0.0, speed);
+    most = std::min(most, thing.moving ? std::max(0.0, (thing.gap - keeps) / kBrakes) : slow);
   }
   return most;
 }
