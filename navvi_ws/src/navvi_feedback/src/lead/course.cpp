@@ -9,7 +9,7 @@ namespace {
 constexpr double kHalfLane = 0.6;     // m; what is farther to the side is passed at full speed
 constexpr double kSqueezes = 0.37;    // m, likewise once the robot has stood for kPatience
 constexpr double kPatience = 2.0;     // s
-constexpr double kLongest = 8.0;      // s; what is still there then must be driven round
+constexpr double kLongest = 8.0;      // s; what is still there then is taken to stand
 constexpr double kKeeps = 0.25;       // m, from what stands ahead
 constexpr double kKeepsMoving = 0.6;  // m, from what moves
 constexpr double kBrakes = 1.0;       // s, over which what is left of the gap is driven
@@ -21,8 +21,9 @@ constexpr double kAway = 0.3;         // rad
 constexpr double kDue = 0.1;          // rad; more is turned on the spot while the way is not free
 
 /// m/s that what is ahead, within so many m to either side, allows.
-double allowed(const std::vector<NearThing>& nearby, double half_lane, double beside, double speed,
-               double full) {
+/// \param from_moving  m, to be kept from what moves
+double allowed(const std::vector<NearThing>& nearby, double half_lane, double from_moving,
+               double beside, double speed, double full) {
   double most = full;
   for (const NearThing& thing : nearby) {
     if (!thing.moving && thing.nearest.x() > kBehind && thing.gap < beside)
@@ -30,7 +31,7 @@ double allowed(const std::vector<NearThing>& nearby, double half_lane, double be
     if (thing.nearest.x() <= 0.0 || std::abs(thing.nearest.y()) > half_lane) continue;
     // Whoever sets off is not shown what would be too fast a moment later.
     const double slow = std::max(kCreep, (thing.gap - kKeeps) / (kBrakes + kReaction));
-    const double keeps = kKeepsMoving + kReaction * std::max(0.0, speed);
+    const double keeps = from_moving + kReaction * std::max(0.0, speed);
     most = std::min(most, thing.moving ? std::max(0.0, (thing.gap - keeps) / kBrakes) : slow);
   }
   return most;
@@ -63,11 +64,12 @@ std::optional<Course> Pilot::update(std::optional<double> off,
     return std::nullopt;
   }
   const double bend = std::max(0.0, 1.0 - std::abs(*off) / kOnTheSpot);
-  double free = allowed(nearby, kHalfLane, beside, speed, full);
+  double free = allowed(nearby, kHalfLane, kKeepsMoving, beside, speed, full);
   if (free > kNoticed || !went_) went_ = time;
-  if (time - *went_ > kPatience)
-    free = std::min(kCreep, allowed(nearby, kSqueezes, beside, speed, full));
-  if (time - *went_ > kLongest) free = kCreep;
+  if (const double waited = time - *went_; waited > kPatience) {
+    const double from_moving = waited > kLongest ? kKeeps : kKeepsMoving;
+    free = std::min(kCreep, allowed(nearby, kSqueezes, from_moving, beside, speed, full));
+  }
   if (free <= kNoticed) free = 0.0;
   if (free <= 0.0 && std::abs(*off) < kDue) return std::nullopt;
   const double aside = std::abs(*off) < kOnTheSpot ? away(nearby, beside) : 0.0;

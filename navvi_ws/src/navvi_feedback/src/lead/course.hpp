@@ -15,7 +15,7 @@ struct Course {
 };
 
 /// Says how fast the way ahead may be driven: slower into a turn, and towards what stands or moves
-/// ahead; nothing where the robot is to stand. Past what waits beside the lane it creeps, and round
+/// ahead; nothing where the robot is to stand. Past what waits beside the lane it creeps, and up to
 /// what does not go away.
 class Pilot {
  public:
