@@ -21,6 +21,8 @@ void LinkConfig::describe(navvi_config::Visitor& visit) {
   visit(loss, "loss", Range{0.0, 0.2}, "",
         "share of its packets; each holds up its topic until it is sent again, but commands");
   visit(outage, "outage", Range{0.0, 30.0}, "s", "for which it is silent once a minute");
+  visit(bandwidth, "bandwidth", Range{0.0, 1e6}, "kB/s",
+        "of it; of each topic only the newest message waits; 0: any");
 }
 
 double Channel::outage_left(double sent) const {

@@ -41,19 +41,25 @@ class DelayLine {
   /// \param streams  each keeps the order in which values were sent, and does not wait for what
   /// another has lost, as the topics of ROS; 0: each value has a packet of its own, and what a later
   /// one has overtaken is dropped
-  DelayLine(const LinkConfig& config, std::uint64_t seed, std::size_t streams) : alone_(streams == 0) {
+  DelayLine(const LinkConfig& config, std::uint64_t seed, std::size_t streams)
+      : alone_(streams == 0),
+        takes_(config.bandwidth > 0.0 ? kMessage / config.bandwidth : 0.0),
+        begins_(std::max<std::size_t>(1, streams)) {
     for (std::size_t stream = 0; stream < std::max<std::size_t>(1, streams); ++stream)
       channels_.emplace_back(config, 1000 * seed + stream);
   }
 
   void send(Value value, double time, std::size_t stream = 0) {
+    if (begins_.at(stream) > time) return replace(std::move(value), time, stream);
+    begins_[stream] = std::max(time, free_);
+    free_ = begins_[stream] + takes_;
     Channel& channel = channels_.at(stream);
-    const auto arrival = alone_ ? channel.alone(time) : std::optional(channel.in_stream(time));
+    const auto arrival = alone_ ? channel.alone(free_) : std::optional(channel.in_stream(free_));
     if (!arrival) return;
     auto after = under_way_.end();
     while (after != under_way_.begin() && std::prev(after)->arrival > *arrival) --after;
     if (alone_) after = under_way_.erase(after, under_way_.end());
-    under_way_.insert(after, {*arrival, time, std::move(value)});
+    under_way_.insert(after, {*arrival, time, stream, std::move(value)});
   }
   /// \param take  called with each value that has arrived, and the time at which it was sent
   template <typename Take>
@@ -63,11 +69,27 @@ class DelayLine {
   }
 
  private:
+  static constexpr double kMessage = 0.3;  ///< kB with all headers, about
+
   struct Sent {
     double arrival, sent;  ///< s
+    std::size_t stream;
     Value value;
   };
+
+  /// The last value of the stream has not left yet: this one goes in its place.
+  void replace(Value value, double time, std::size_t stream) {
+    const auto last = std::find_if(under_way_.rbegin(), under_way_.rend(),
+                                   [&](const Sent& one) { return one.stream == stream; });
+    if (last == under_way_.rend()) return;  // it is to be lost
+    last->sent = time;
+    last->value = std::move(value);
+  }
+
   bool alone_;
+  double takes_;                ///< s, of a message at the link's bandwidth
+  double free_ = 0.0;           ///< s, when all that was sent has left
+  std::vector<double> begins_;  ///< s, when the last of each stream leaves or left
   std::vector<Channel> channels_;
   std::deque<Sent> under_way_;
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace navvi_feedback::link {
@@ -107,6 +108,28 @@ TEST(DelayLine, an_outage_comes_once_a_minute_and_delivers_all_at_its_end) {
   EXPECT_NEAR(longest(found), 5.0, 0.1);
   const auto held = std::count_if(found.begin(), found.end(), [](double age) { return age > kStep; });
   EXPECT_NEAR(static_cast<double>(held) * kStep, 15.0, 5.1) << "three outages, or two";
+}
+
+TEST(DelayLine, a_narrow_link_hands_over_the_newest_of_each_stream) {
+  LinkConfig config;
+  config.bandwidth = 15.0;  // of the 60 kB/s that are sent
+  DelayLine<int> line(config, 1, 4);
+  std::vector<int> came(4, 0), last(4, -1);
+  double oldest = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    const double time = i * kStep;
+    for (int stream = 0; stream < 4; ++stream) line.send(4 * i + stream, time, stream);
+    line.receive(time, [&](int value, double sent) {
+      const int stream = value % 4;
+      EXPECT_GT(value, last[stream]) << "in order";
+      EXPECT_EQ(value / 4, std::lround(sent / kStep)) << "with the time at which it was sent";
+      last[stream] = value;
+      ++came[stream];
+      oldest = std::max(oldest, time - sent);
+    });
+  }
+  EXPECT_LT(oldest, 0.1 + kStep) << "a message of each stream is before it at most";
+  for (const int count : came) EXPECT_NEAR(count, 60.0 * 15.0 / (4 * 0.3), 30.0);
 }
 
 }  // namespace
