@@ -66,8 +66,8 @@ done["led"] = any(msg.state == Guidance.FOLLOWING for msg in seen[begun:])
 ask()
 done["toward"] = hold(lambda: seen[-1].state == Guidance.FOLLOWING and seen[-1].ends_short, 20)
 done["told"] = hold(lambda: "toward_goal" in heard, 10)
-done["seen"] = hold(lambda: seen[-1].state == Guidance.FOLLOWING and not seen[-1].ends_short, 90, True)
-done["arrived"] = hold(lambda: seen[-1].state == Guidance.ARRIVED, 90, True)
+done["seen"] = hold(lambda: seen[-1].state == Guidance.FOLLOWING and not seen[-1].ends_short, 180, True)
+done["arrived"] = hold(lambda: seen[-1].state == Guidance.ARRIVED, 180, True)
 hold(lambda: "arrived" in heard, 15)
 done["away"] = math.dist(at, goal)
 done["states"] = sorted({msg.state for msg in seen[begun:]})
@@ -100,7 +100,7 @@ def led(master, tmp_path_factory):
         programs.start("/usr/bin/python3", ROOT / "test/wheels.py")
         programs.launch("robot.launch", "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic", "speech:=false", "rviz:=false",
                         f"out:={folder}", "feedback_parameters:={listener: topic}")
-        told = programs.person("-c", PERSON, *GOAL, seconds=400)
+        told = programs.person("-c", PERSON, *GOAL, seconds=550)
     return dict(json.loads(told), log=programs.log.read_text()[-5000:])
 
 
