@@ -496,6 +496,12 @@ std::optional<Summary> parse_summary(const std::string& text) {
   return summary;
 }
 
+std::string cell_of(const Summary& summary, const std::string& name) {
+  const auto cell = std::find_if(summary.begin(), summary.end(),
+                                 [&](const auto& one) { return one.first == name; });
+  return cell == summary.end() ? "" : cell->second;
+}
+
 std::vector<std::string> differences(const Summary& summary, const Summary& recount) {
   const std::map<std::string, std::string> again(recount.begin(), recount.end());
   std::vector<std::string> sentences;

@@ -54,6 +54,8 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string summary_csv(const Summary& summary);
 /// nullopt for a text that summary_csv() does not write.
 [[nodiscard]] std::optional<Summary> parse_summary(const std::string& text);
+/// Empty where there is no such column.
+[[nodiscard]] std::string cell_of(const Summary& summary, const std::string& name);
 
 /// A sentence for each column of the summary that the recount has otherwise, but `bag`, as no bag
 /// holds how it was closed. A summary of an earlier version has fewer columns.

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <stdexcept>
 
+#include "record/figures.hpp"
+
 namespace navvi_study::record {
 namespace fs = std::filesystem;
 namespace {
@@ -119,6 +121,7 @@ std::optional<Row> Journal::append(const std::string& type, const Fields& fields
                                    Durability durability) {
   if (broken()) return std::nullopt;
   Row row{trial_, static_cast<std::uint32_t>(rows_.size() + 1), sim_ns, mono_ns, type, fields};
+  const off_t before = ::lseek(file_, 0, SEEK_END);
   int error = write(format_row(row));
   // A failed sync may have thrown the bytes away: asking again would say yes to nothing.
   if (error == 0 && durability == Durability::essential && calls_.fdatasync(file_) != 0) {
@@ -126,6 +129,8 @@ std::optional<Row> Journal::append(const std::string& type, const Fields& fields
   }
   if (error != 0) {
     problem_ = navvi_files::failure("write the journal", error);
+    // A row that may not last is not to be read as one that does.
+    if (::ftruncate(file_, before) != 0) problem_ += ", nor shorten it";
     return std::nullopt;
   }
   rows_.push_back(row);
@@ -165,13 +170,13 @@ namespace {
 
 /// Appends to what a crash left; `contents` has been read from `file`.
 navvi_files::Problem mend(const fs::path& folder, int file, const std::string& bytes,
-                          JournalContents& contents, Recovery& recovery) {
-  const navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
+                          JournalContents& contents, Recovery& recovery,
+                          const navvi_files::SystemCalls& calls) {
   if (!contents.damage.empty()) {
     const std::string tail = bytes.substr(contents.good_bytes);
     const fs::path aside = place_for(folder, tail);
-    if (const auto problem = navvi_files::write_atomically(aside, tail)) return problem;
-    if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || ::fsync(file) != 0) {
+    if (const auto problem = navvi_files::write_atomically(aside, tail, calls)) return problem;
+    if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || calls.fsync(file) != 0) {
       return navvi_files::failure("shorten the journal", errno);
     }
     recovery.changed = true;
@@ -190,9 +195,15 @@ navvi_files::Problem mend(const fs::path& folder, int file, const std::string& b
                     contents.rows.back().fields.get("reason") == "journal_damaged";
   if (open || (damaged && !said && !contents.rows.empty())) {
     const Row& last = contents.rows.back();
+    const std::string summary = navvi_files::read_file(folder / "summary.csv").value_or("");
+    // What the trial's own end could not write into its journal.
+    const Summary told = parse_summary(summary).value_or(Summary());
+    const bool invalid = damaged || cell_of(told, "result") == "invalid";
     Fields fields;
-    fields.set("result", damaged ? "invalid" : "aborted")
-        .set("reason", damaged ? "journal_damaged" : "ended_without_a_word");
+    fields.set("result", invalid ? "invalid" : "aborted")
+        .set("reason", damaged   ? "journal_damaged"
+                       : invalid ? cell_of(told, "reason")
+                                 : "ended_without_a_word");
     const Row end{last.trial, last.seq + 1, last.sim_ns, last.mono_ns, "TRIAL_END", fields};
     lines += format_row(end);
     contents.rows.push_back(end);
@@ -202,14 +213,14 @@ navvi_files::Problem mend(const fs::path& folder, int file, const std::string& b
   recovery.changed = true;
   std::string_view rest = lines;
   int error = navvi_files::write_all(file, rest, calls);
-  if (error == 0 && ::fsync(file) != 0) error = errno;
+  if (error == 0 && calls.fsync(file) != 0) error = errno;
   if (error != 0) return navvi_files::failure("close the journal", error);
   return std::nullopt;
 }
 
 }  // namespace
 
-Recovery recover(const fs::path& folder) {
+Recovery recover(const fs::path& folder, const navvi_files::SystemCalls& calls) {
   Recovery recovery;
   const OpenFile file(
       ::open(journal_in(folder).c_str(), O_RDWR | O_APPEND | O_CLOEXEC | O_NOFOLLOW));
@@ -227,7 +238,7 @@ Recovery recover(const fs::path& folder) {
     return recovery;
   }
   JournalContents contents = read_journal(*bytes);
-  const auto problem = mend(folder, file.descriptor, *bytes, contents, recovery);
+  const auto problem = mend(folder, file.descriptor, *bytes, contents, recovery, calls);
   if (problem) recovery.problem = *problem;
   recovery.rows = contents.rows;
   ::unlink(reserve_in(folder).c_str());

@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 namespace navvi_study::record {
 namespace {
@@ -51,11 +53,21 @@ std::optional<Track> parse_track(std::string_view bytes) {
   bytes.remove_prefix(kHead);
   Track track(bytes.size() / sizeof(TrackRow));
   if (!track.empty()) std::memcpy(track.data(), bytes.data(), track.size() * sizeof(TrackRow));
+  // What a loss of power took out of the middle reads as zeros.
+  double last = 0.0;
+  const auto follows = [&](const auto& row) { return row.time > std::exchange(last, row.time); };
+  track.erase(std::find_if_not(track.begin(), track.end(), follows), track.end());
   return track;
 }
 
-TrackFile::TrackFile(const std::filesystem::path& folder)
-    : file_(::open((folder / "track.npy").c_str(),
+Track read_track(const std::filesystem::path& folder) {
+  const auto bytes = navvi_files::read_file(folder / "track.npy");
+  return bytes ? parse_track(*bytes).value_or(Track()) : Track();
+}
+
+TrackFile::TrackFile(const std::filesystem::path& folder, navvi_files::SystemCalls calls)
+    : calls_(std::move(calls)),
+      file_(::open((folder / "track.npy").c_str(),
                    O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0644)) {}
 
 TrackFile::~TrackFile() {
@@ -63,14 +75,23 @@ TrackFile::~TrackFile() {
 }
 
 navvi_files::Problem TrackFile::append(const Track& rows) {
-  const std::size_t size = rows.size() * sizeof(TrackRow);
-  const auto at = static_cast<off_t>(kHead + rows_ * sizeof(TrackRow));
-  const std::string head = head_of(rows_ + rows.size());
-  if (::pwrite(file_, rows.data(), size, at) != static_cast<ssize_t>(size) ||
-      ::pwrite(file_, head.data(), head.size(), 0) != static_cast<ssize_t>(head.size()))
-    return navvi_files::failure("write the track", errno);
-  rows_ += rows.size();
+  int error = write_at(kHead + rows_ * sizeof(TrackRow), bytes_of(rows));
+  if (error == 0) {
+    rows_ += rows.size();
+    error = write_at(0, head_of(rows_));
+  }
+  if (error != 0) return navvi_files::failure("write the track", error);
   return std::nullopt;
+}
+
+navvi_files::Problem TrackFile::sync() {
+  if (calls_.fdatasync(file_) == 0) return std::nullopt;
+  return navvi_files::failure("sync the track", errno);
+}
+
+int TrackFile::write_at(std::size_t place, std::string_view bytes) {
+  if (::lseek(file_, static_cast<off_t>(place), SEEK_SET) < 0) return errno;
+  return navvi_files::write_all(file_, bytes, calls_);
 }
 
 }  // namespace navvi_study::record

@@ -53,22 +53,31 @@ constexpr double kTrackRate = 50.0;  ///< Hz
 
 /// As NumPy reads it by numpy.load(): an array with a named field a member of TrackRow.
 [[nodiscard]] std::string track_npy(const Track& track);
-/// nullopt for bytes that track_npy() does not write. A last row that is not whole is left out.
+/// The rows up to the first that is not whole. nullopt for bytes that track_npy() does not write.
 [[nodiscard]] std::optional<Track> parse_track(std::string_view bytes);
+/// track.npy of a trial's folder; empty where it is missing or damaged from its beginning.
+[[nodiscard]] Track read_track(const std::filesystem::path& folder);
 
 /// track.npy of a trial that runs.
 class TrackFile {
  public:
-  explicit TrackFile(const std::filesystem::path& folder);
+  explicit TrackFile(const std::filesystem::path& folder,
+                     navvi_files::SystemCalls calls = navvi_files::SystemCalls::real());
   ~TrackFile();
   TrackFile(const TrackFile&) = delete;
   TrackFile& operator=(const TrackFile&) = delete;
 
   /// From now on the file holds these, too.
   [[nodiscard]] navvi_files::Problem append(const Track& rows);
+  /// Makes them last through a loss of power.
+  [[nodiscard]] navvi_files::Problem sync();
 
  private:
-  int file_ = -1;
+  /// errno, or 0
+  [[nodiscard]] int write_at(std::size_t place, std::string_view bytes);
+
+  navvi_files::SystemCalls calls_;
+  int file_;
   std::size_t rows_ = 0;
 };
 

@@ -10,7 +10,7 @@ namespace {
 Track track_of(std::size_t rows) {
   Track track(rows);
   for (std::size_t i = 0; i < rows; ++i) {
-    track[i].time = 0.02 * static_cast<double>(i);
+    track[i].time = 0.02 * static_cast<double>(i + 1);
     track[i].x = static_cast<float>(i);
     track[i].sounds = "turn";
   }

@@ -49,8 +49,7 @@ Trial read_trial(const fs::path& folder) {
   Trial trial;
   if (const auto bytes = navvi_files::read_file(folder / "journal.csv"))
     trial.rows = read_journal(*bytes).rows;
-  if (const auto bytes = navvi_files::read_file(folder / "track.npy"))
-    trial.track = parse_track(*bytes).value_or(Track());
+  trial.track = read_track(folder);
   return trial;
 }
 
@@ -64,7 +63,20 @@ navvi_files::Problem write_results(const fs::path& folder, const Trial& trial,
                                         calls);
 }
 
-std::vector<std::string> recover_trials(const fs::path& out) {
+namespace {
+
+/// Whether the summary is there and, where the bag was closed, has its state.
+bool is_summed_up(const fs::path& folder, const Row& last) {
+  const auto text = navvi_files::read_file(folder / "summary.csv");
+  const auto summary = text ? parse_summary(*text) : std::nullopt;
+  const std::string bag = summary ? cell_of(*summary, "bag") : "";
+  return text && (last.type != "BAG_CLOSED" || bag.empty() || bag == last.fields.get("state"));
+}
+
+}  // namespace
+
+std::vector<std::string> recover_trials(const fs::path& out,
+                                        const navvi_files::SystemCalls& calls) {
   std::vector<fs::path> folders;
   std::error_code error;
   for (fs::directory_iterator it(out, error), end; !error && it != end; it.increment(error)) {
@@ -76,13 +88,14 @@ std::vector<std::string> recover_trials(const fs::path& out) {
   std::sort(folders.begin(), folders.end());
   std::vector<std::string> sentences;
   for (const auto& folder : folders) {
-    const Recovery recovery = recover(folder);
+    const Recovery recovery = recover(folder, calls);
     if (recovery.in_use) continue;
     std::string said = recovery.problem.empty() ? recovery.report : recovery.problem;
     if (recovery.problem.empty() && !recovery.rows.empty() &&
-        (recovery.changed || !fs::exists(folder / "summary.csv"))) {
-      if (const auto problem = write_results(folder, {recovery.rows, read_trial(folder).track})) said += *problem;
-      if (said.empty()) said = "Its summary was missing and is there again.";
+        (recovery.changed || !is_summed_up(folder, recovery.rows.back()))) {
+      if (const auto problem = write_results(folder, {recovery.rows, read_track(folder)}, calls))
+        said += *problem;
+      if (said.empty()) said = "Its summary lacked the journal's last rows and has them now.";
     }
     if (!said.empty()) sentences.push_back(folder.filename().string() + ": " + said);
   }

@@ -29,6 +29,8 @@ namespace navvi_study::record {
 
 /// Brings every trial under `out` in order that a crash left open. \return sentences, one a trial
 /// that was changed or could not be
-[[nodiscard]] std::vector<std::string> recover_trials(const std::filesystem::path& out);
+[[nodiscard]] std::vector<std::string> recover_trials(
+    const std::filesystem::path& out,
+    const navvi_files::SystemCalls& calls = navvi_files::SystemCalls::real());
 
 }  // namespace navvi_study::record

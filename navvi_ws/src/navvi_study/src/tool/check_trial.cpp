@@ -16,17 +16,10 @@ namespace {
 
 namespace study = navvi_study;
 
-/// The summary's cell; empty where there is none.
-std::string cell_of(const study::record::Summary& summary, const std::string& name) {
-  for (const auto& [column, cell] : summary) {
-    if (column == name) return cell;
-  }
-  return "";
-}
-
 /// A sentence if the last state in the summary is not one of those in the bag.
 std::string summary_differs(const study::record::Summary& summary,
                             const study::recount::RecordedSession& session) {
+  using study::record::cell_of;
   const std::string step = cell_of(summary, "state_step"), hash = cell_of(summary, "state_hash");
   if (cell_of(summary, "world_hash") != session.world_hash)
     return "The world in the summary is not the one in the bag.";

@@ -199,7 +199,7 @@ void TrialKeeper::arm() {
     kept_.folder = record::create_trial_folder(config_.out, now_.utc_ns / kSecond);
     kept_.journal = std::make_unique<record::Journal>(
         kept_.folder, kept_.folder.filename().string(), record::Journal::kMinFree, calls_);
-    kept_.track_file = std::make_unique<record::TrackFile>(kept_.folder);
+    kept_.track = std::make_unique<record::TrackFile>(kept_.folder, calls_);
   } catch (const std::runtime_error& error) {
     tell(Tone::fatal, error.what());
     return leave(3);
@@ -243,7 +243,6 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
   const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
   monitor_.start(beginning);
   tracker_.start(beginning.stamp);
-  kept_.track.clear();
   listen();
   flow_.start(beginning.stamp);
   if (const auto deadline = flow_.deadline()) monitor_.end(*deadline);
@@ -296,8 +295,7 @@ void TrialKeeper::listen() {
 void TrialKeeper::keep_track(std::int64_t until) {
   const record::Track rows = tracker_.rows_until(std::min(until, monitor_.ended().value_or(until)));
   if (!active() || rows.empty()) return;
-  kept_.track.insert(kept_.track.end(), rows.begin(), rows.end());
-  if (const auto problem = kept_.track_file->append(rows)) tell(Tone::error, *problem);
+  if (const auto problem = kept_.track->append(rows)) tell(Tone::error, *problem);
 }
 
 void TrialKeeper::ask_for_goal() {
@@ -381,6 +379,7 @@ void TrialKeeper::end(const Ending& ending) {
 
 void TrialKeeper::write_end() {
   keep_track(ending_.stamp);
+  if (const auto problem = kept_.track->sync()) tell(Tone::error, *problem);
   // The goal may have been reached just before the end that was called first.
   ending_ = TrialFlow::last_word(ending_, monitor_.arrival(), kept_.journal->full());
   record::Fields fields = monitor_.end_fields();
@@ -404,7 +403,9 @@ bool TrialKeeper::record(const Event& event) {
     outlets_.publish(*row);
     return true;
   }
-  tell(Tone::fatal, kept_.journal->problem() + ". The trial is invalid.");
+  const bool ended = event.type == "BAG_CLOSED";
+  tell(Tone::fatal, kept_.journal->problem() +
+                        (ended ? ". The state of the bag is lost." : ". The trial is invalid."));
   exit_.code = 4;
   enter(Phase::closing);
   write_summary();
@@ -414,14 +415,14 @@ bool TrialKeeper::record(const Event& event) {
 void TrialKeeper::write_summary() {
   record::Trial kept = trial();
   auto& rows = kept.rows;
-  if (kept_.journal->broken()) {
+  if (kept_.journal->broken() && (rows.empty() || rows.back().type != "TRIAL_END")) {
     record::Row last =
         rows.empty() ? record::Row{kept_.folder.filename().string(), 0, 0, 0, "", {}} : rows.back();
     last.type = "TRIAL_END";
     last.fields = record::Fields().set("result", "invalid").set("reason", "journal_broken");
     rows.push_back(last);
   }
-  if (const auto problem = record::write_results(kept_.folder, kept)) {
+  if (const auto problem = record::write_results(kept_.folder, kept, calls_)) {
     tell(Tone::error, *problem);
     exit_.code = 4;
   }
@@ -459,7 +460,7 @@ void TrialKeeper::leave(int exit_code) {
 void TrialKeeper::abandon(int exit_code) {
   kept_.bag = BagWatch();
   kept_.journal.reset();
-  kept_.track_file.reset();
+  kept_.track.reset();
   std::error_code error;
   fs::remove_all(kept_.folder, error);
   leave(exit_code);

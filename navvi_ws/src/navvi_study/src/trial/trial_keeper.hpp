@@ -106,8 +106,7 @@ class TrialKeeper {
   struct Kept {
     std::filesystem::path folder;
     std::unique_ptr<record::Journal> journal;
-    std::unique_ptr<record::TrackFile> track_file;
-    record::Track track;
+    std::unique_ptr<record::TrackFile> track;
     BagWatch bag;
     // Both are journalled.
     bool bag_lost = false;
@@ -148,7 +147,9 @@ class TrialKeeper {
   [[nodiscard]] Signs signs() const;
   void listen();
   void keep_track(std::int64_t until);
-  [[nodiscard]] record::Trial trial() const { return {kept_.journal->rows(), kept_.track}; }
+  [[nodiscard]] record::Trial trial() const {
+    return {kept_.journal->rows(), record::read_track(kept_.folder)};
+  }
   void watch();
   void watch_bag();
   void watch_feedback(double silence);
