@@ -78,7 +78,6 @@ void SdfThings::add_planes() {
     Thing thing;
     thing.name = unique(names_.count(plane.name) ? plane.name + "_plane" : plane.name);
     thing.thing_class = ThingClass::floor;
-    loaded.rules[thing.name] = "a plane";
     thing.pose.translation() = Eigen::Vector3d(bounds.center().x(), bounds.center().y(),
                                                plane.height - kPlaneThickness / 2.0);
     thing.shapes.push_back(
@@ -192,7 +191,6 @@ void SdfThings::find_floor_of_buildings() {
         area >= kFloorExcess * level_area(thing, *height + kDrivenOver, bounds.max().z());
     if (area < kLeastFloor || !is_most || *height > bounds.min().z() + kFloorDepth) continue;
     thing.thing_class = ThingClass::floor;
-    loaded.rules[thing.name] = "a floor of its own";
     notes_.add(places_[i], "no thing is named a floor, and '" + thing.name +
                                "' has one of its own, which is taken");
   }
@@ -231,9 +229,7 @@ void SdfThings::judge_floors(double height) {
         top_of(thing) <= height + kDrivenOver ||
         level_area(thing, height - kDrivenOver, height + kDrivenOver) >= kLeastFloor)
       continue;
-    thing.thing_class = match->second.thing_class;
-    loaded.rules[thing.name] = match->second.pattern.empty() ? "no floor: it rises above the floor"
-                                                             : match->second.pattern;
+    thing.thing_class = match->second;
   }
 }
 
