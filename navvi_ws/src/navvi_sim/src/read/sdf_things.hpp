@@ -68,8 +68,9 @@ class SdfThings {
   void find_floor_of_buildings();
   void judge_floors(double height);
   void judge_terrain(double height, const std::filesystem::path& file);
-  /// Takes some things out.
-  std::vector<Lost> leave_out(const std::function<bool(const Thing&)>& is_lost);
+  /// Takes some things out. \param why  of a note on each; empty: none is made
+  std::vector<Lost> leave_out(const std::function<bool(const Thing&)>& is_lost,
+                              const std::string& why = "");
   void leave_out_what_is_under(double height, const std::filesystem::path& file);
   void leave_out_spares(double height);
   void leave_out_what_is_in_slabs(double height);
