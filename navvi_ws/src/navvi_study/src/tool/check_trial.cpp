@@ -1,9 +1,9 @@
 // check_trial TRIAL_FOLDER: steps the recorded world with the recorded commands and compares its
 // state each second. Exit 0: equal. 1: differs. 2: cannot be compared.
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <navvi_files/files.hpp>
 #include <navvi_types/scenario.hpp>
 #include <string>
@@ -16,19 +16,12 @@ namespace {
 
 namespace study = navvi_study;
 
-/// The summary's cell; empty where there is none.
-std::string cell_of(const study::record::Summary& summary, const std::string& name) {
-  for (const auto& [column, cell] : summary) {
-    if (column == name) return cell;
-  }
-  return "";
-}
-
 /// A sentence if the last state in the summary is not one of those in the bag.
 std::string summary_differs(const study::record::Summary& summary,
                             const study::recount::RecordedSession& session) {
-  const std::string step = cell_of(summary, "state_step"), hash = cell_of(summary, "state_hash");
-  if (cell_of(summary, "world_hash") != session.world_hash)
+  std::map<std::string, std::string> cells(summary.begin(), summary.end());
+  const std::string step = cells["state_step"], hash = cells["state_hash"];
+  if (cells["world_hash"] != session.world_hash)
     return "The world in the summary is not the one in the bag.";
   for (const auto& state : session.states) {
     if (std::to_string(state.step) == step && navvi_types::to_hex(state.hash) == hash) return "";
