@@ -1,6 +1,7 @@
 #include "navvi_files/bytes.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace navvi_files {
 

@@ -22,28 +22,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kName = "kept-";  // how the name of each file begins
 constexpr std::uintmax_t kFolders = 16;
 constexpr std::uintmax_t kMegabyte = 1'000'000;
-
-/// \param result  behind its key and build
-std::string sealed(std::string_view build, std::string_view key, std::string_view result) {
-  ByteWriter all, out;
-  for (const std::string_view part : {build, key, result}) all.put(part);
-  out.put(hash_of(all.bytes()));
-  out.put(std::string_view(all.bytes()));
-  return out.bytes();
-}
-
-std::optional<std::string> unsealed(std::string_view file, std::string_view build,
-                                    std::string_view key) {
-  ByteReader in(file);
-  const auto hash = in.get<std::uint64_t>();
-  const std::string_view all = in.get_text();
-  if (!in.ends_well() || hash_of(all) != hash) return std::nullopt;
-  ByteReader parts(all);
-  const bool mine = parts.get_text() == build && parts.get_text() == key;
-  const std::string_view result = parts.get_text();
-  if (!mine || !parts.ends_well()) return std::nullopt;
-  return std::string(result);
-}
+constexpr std::size_t kSeal = 16;  // digits, before a result
 
 std::string digits(std::uint64_t number) {
   std::array<char, 17> text{};
@@ -83,17 +62,24 @@ fs::path Cache::file_of(const std::string& key) const {
   return config_.folder / name.substr(0, 1) / (std::string(kName) + name);
 }
 
+std::string Cache::seal_of(const std::string& key, std::string_view bytes) const {
+  return digits(hash_of(config_.build + "\n" + key + "\n" + digits(hash_of(bytes))));
+}
+
 std::optional<std::string> Cache::find(const std::string& key) const {
   if (config_.megabytes == 0) return std::nullopt;
   const fs::path path = file_of(key);
-  const std::optional<std::string> file = read_file(path);
-  auto result = file ? unsealed(*file, config_.build, key) : std::nullopt;
-  if (result) (void)::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
-  return result;
+  std::optional<std::string> file = read_file(path);
+  if (!file || file->size() < kSeal) return std::nullopt;
+  const std::string seal = file->substr(0, kSeal);
+  file->erase(0, kSeal);
+  if (seal != seal_of(key, *file)) return std::nullopt;
+  (void)::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+  return file;
 }
 
 void Cache::keep(const std::string& key, std::string_view bytes) const {
-  const std::string file = sealed(config_.build, key, bytes);
+  const std::string file = seal_of(key, bytes).append(bytes);
   if (file.size() > most_bytes()) return;
   const fs::path path = file_of(key);
   std::error_code error;

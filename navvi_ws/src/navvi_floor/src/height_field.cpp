@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <sstream>
 #include <tuple>
-#include <unordered_map>
 
 #include "navvi_floor/parallel.hpp"
 #include "navvi_floor/resample.hpp"
@@ -35,15 +35,30 @@ HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<
   rows_.resize(static_cast<std::size_t>(size_[1]));
   // Narrow bands need little room for spans that are to be joined; each looks at all octets.
   constexpr std::size_t kBandColumns = 4U << 20U;
+  constexpr std::size_t kRunsACount = 1U << 16U;
   const int bands =
       std::min(std::max({1, threads, static_cast<int>(highest_.size() / kBandColumns)}), size_[1]);
   lower_.resize(static_cast<std::size_t>(bands));
+  const std::size_t most = kFreeRuns + kRunsANode * voxels.octets.size();
+  std::atomic<std::size_t> stacked{0};
   in_parallel(bands, threads, [&](int band) {
     std::vector<Lower>& lower = lower_[static_cast<std::size_t>(band)];
     const auto row_at = [&](int end) {
       return static_cast<int>(static_cast<std::int64_t>(size_[1]) * end / bands);
     };
-    for (const Octet& octet : voxels.octets) add(octet, row_at(band), row_at(band + 1), lower);
+    std::size_t counted = 0;
+    const auto count = [&] {
+      stacked += lower.size() - counted;
+      counted = lower.size();
+    };
+    for (const Octet& octet : voxels.octets) {
+      if (lower.size() - counted > kRunsACount) {
+        count();
+        if (stacked > most) return;
+      }
+      add(octet, row_at(band), row_at(band + 1), lower);
+    }
+    count();
     settle(lower);
     lower.push_back({static_cast<std::uint32_t>(highest_.size()), {}});
     lower.shrink_to_fit();
@@ -55,6 +70,10 @@ HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<
       rows_[static_cast<std::size_t>(row)] = {begin, at};
     }
   });
+  if (stacked > most)
+    error_ = "the map stacks more runs of voxels in its columns than the " +
+             millions(static_cast<double>(most)) + " that are allowed with " +
+             std::to_string(voxels.octets.size()) + " nodes that hold leaves";
 }
 
 const HeightField::Lower* HeightField::below(std::size_t column) const {
@@ -93,7 +112,6 @@ void HeightField::measure(const Voxels& voxels, const std::optional<Area>& wante
     error_ = "the map is " + std::to_string(size_[2]) + " voxels tall; " +
              std::to_string(kMaxLevels) + " are allowed";
   const double columns = static_cast<double>(size_[0]) * size_[1];
-  const double stacked = kFreeRuns + kRunsANode * static_cast<double>(voxels.octets.size());
   if (columns > kMaxCells)
     error_ = "the map spreads over " + millions(columns) + " columns of voxels; " +
              millions(kMaxCells) + " are allowed, as with voxels of " +
@@ -102,86 +120,9 @@ void HeightField::measure(const Voxels& voxels, const std::optional<Area>& wante
   else if (runs > kMaxRuns)
     error_ = "the map has " + millions(runs) + " runs of voxels in its columns; " +
              millions(kMaxRuns) + " are allowed";
-  else if (runs > stacked && runs - columns_of_large_leaves(voxels) > stacked) {
-    const double apart = runs - columns_of_large_leaves(voxels) - touching_runs(voxels);
-    if (apart > stacked)
-      error_ = "the map stacks " + millions(apart) + " runs of voxels in its columns; with " +
-               std::to_string(voxels.octets.size()) + " nodes that hold leaves, " +
-               millions(stacked) + " are allowed";
-  }
   if (!wanted) return;
   low_[0] = wanted->low.x, low_[1] = wanted->low.y;
   size_[0] = wanted->columns(), size_[1] = wanted->rows();
-}
-
-/// Columns that a leaf of kSquare voxels or more covers: one run of each stands in the grid.
-double HeightField::columns_of_large_leaves(const Voxels& voxels) const {
-  constexpr int kLevel = 3;
-  constexpr int kSquare = 1 << kLevel;
-  const int low_x = (low_[0] + kMapCenter) >> kLevel;
-  const int low_y = (low_[1] + kMapCenter) >> kLevel;
-  const int width = size_[0] / kSquare + 2;
-  std::vector<bool> squares(static_cast<std::size_t>(width) *
-                            static_cast<std::size_t>(size_[1] / kSquare + 2));
-  for (const Octet& octet : voxels.octets) {
-    if (octet.level < kLevel) continue;
-    const int side = 1 << (octet.level - kLevel);
-    const unsigned quarters = (octet.mask | octet.mask >> 4) & 0x0fU;
-    for (int quarter = 0; quarter < 4; ++quarter) {
-      if (((quarters >> quarter) & 1) == 0) continue;
-      const int x = (octet.x >> kLevel) - low_x + ((quarter & 1) != 0 ? side : 0);
-      const int y = (octet.y >> kLevel) - low_y + ((quarter & 2) != 0 ? side : 0);
-      for (int row = y; row < y + side; ++row) {
-        const auto first = squares.begin() + (std::ptrdiff_t{row} * width + x);
-        std::fill(first, first + side, true);
-      }
-    }
-  }
-  return kSquare * kSquare * static_cast<double>(std::count(squares.begin(), squares.end(), true));
-}
-
-/// Runs of leaves that join the leaf above or below, as those of a thick ground: each pair is
-/// counted once, for the smaller leaf or the lower one of two alike.
-double HeightField::touching_runs(const Voxels& voxels) {
-  const auto key = [](int level, int x, int y, int z) {  // in octets of this level
-    return static_cast<std::uint64_t>(level) << 48U | static_cast<std::uint64_t>(x) << 32U |
-           static_cast<std::uint64_t>(y) << 16U | static_cast<std::uint64_t>(z);
-  };
-  std::unordered_map<std::uint64_t, unsigned> masks;
-  int highest = 0;
-  for (const Octet& octet : voxels.octets) {
-    const int level = octet.level;
-    highest = std::max(highest, level);
-    masks[key(level, octet.x >> (level + 1), octet.y >> (level + 1), octet.z >> (level + 1))] |=
-        octet.mask;
-  }
-  /// Whether a leaf of `from` levels or more covers a voxel.
-  const auto is_leaf = [&](int from, int x, int y, int z) {
-    if (z < 0 || z >= kMapSide) return false;
-    for (int level = from; level <= highest; ++level) {
-      const auto octet =
-          masks.find(key(level, x >> (level + 1), y >> (level + 1), z >> (level + 1)));
-      const int child = (x >> level & 1) | (y >> level & 1) << 1 | (z >> level & 1) << 2;
-      if (octet != masks.end() && (octet->second >> child & 1U) != 0) return true;
-    }
-    return false;
-  };
-  double touching = 0.0;
-  for (const Octet& octet : voxels.octets) {
-    const int side = 1 << octet.level;
-    for (int quarter = 0; quarter < 4; ++quarter) {
-      const bool in_low = (octet.mask >> quarter & 1) != 0;
-      const bool in_high = (octet.mask >> (quarter + 4) & 1) != 0;
-      if (!in_low && !in_high) continue;
-      const int x = octet.x + ((quarter & 1) != 0 ? side : 0);
-      const int y = octet.y + ((quarter & 2) != 0 ? side : 0);
-      const int joints =
-          static_cast<int>(is_leaf(octet.level, x, y, octet.z + (in_high ? 2 * side : side))) +
-          static_cast<int>(is_leaf(octet.level + 1, x, y, octet.z + (in_low ? 0 : side) - 1));
-      touching += static_cast<double>(joints) * side * side;
-    }
-  }
-  return touching;
 }
 
 /// \param first_row, last_row  rows of columns to fill, the last excluded

@@ -30,8 +30,8 @@ class HeightField {
   /// map can ask for thousands: large leaves above each other. So there may be this many in any
   /// map, and so many more for each inner node that holds a leaf. Layouts have 4 a node at 0.05 m
   /// and 12 at 0.02 m, where solid things have larger leaves.
-  static constexpr double kFreeRuns = 4.0e6;
-  static constexpr double kRunsANode = 32.0;
+  static constexpr std::size_t kFreeRuns = 4'000'000;
+  static constexpr std::size_t kRunsANode = 32;
 
   /// \param threads  that may share the work
   /// \param wanted  columns, in voxels from the map's origin; by default all that voxels take up
@@ -82,8 +82,6 @@ class HeightField {
   static Span unpacked(Packed span) { return {span.bottom & ~kMore, span.top}; }
   [[nodiscard]] const Lower* below(std::size_t column) const;
   void measure(const Voxels& voxels, const std::optional<Area>& wanted);
-  [[nodiscard]] double columns_of_large_leaves(const Voxels& voxels) const;
-  [[nodiscard]] static double touching_runs(const Voxels& voxels);
   void add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower);
   void add(std::uint32_t column, Packed span, std::vector<Lower>& lower);
   void sort_by_column(std::vector<Lower>& lower) const;

@@ -1,12 +1,10 @@
 #include "navvi_floor/map_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <navvi_config/reader.hpp>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -45,15 +43,6 @@ struct Header {
   std::size_t length = 0;   ///< bytes, the line "data" included
 };
 
-/// A number, and nothing after it.
-std::optional<double> number_in(const std::string& text) {
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  double value = 0.0;
-  if (!(stream >> value) || !(stream >> std::ws).eof() || !std::isfinite(value)) return {};
-  return value;
-}
-
 Header read_header(const std::string& path, const std::string& bytes) {
   Header out;
   std::istringstream stream(bytes.substr(0, kMaxHeader));
@@ -78,7 +67,7 @@ Header read_header(const std::string& path, const std::string& bytes) {
     if (key == "id") {
       out.map.id = value;
     } else if (key == "res") {
-      out.map.resolution = number_in(value).value_or(0.0);
+      out.map.resolution = YAML::Node(value).as<double>(0.0);
     } else if (key == "size") {
       out.nodes = value;
     } else {

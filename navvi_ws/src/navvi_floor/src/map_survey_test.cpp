@@ -208,8 +208,8 @@ TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
                               static_cast<std::uint16_t>(128 * (i / 32 % 32)),
                               static_cast<std::uint16_t>(128 * (i / 32 / 32)), 6, 15});
   EXPECT_EQ(survey_map(stacked, {}).error,
-            "the map stacks 167 million runs of voxels in its columns; with 11264 nodes that hold "
-            "leaves, 4 million are allowed");
+            "the map stacks more runs of voxels in its columns than the 4 million that are allowed "
+            "with 11264 nodes that hold leaves");
   Voxels full{"", 0.05, {{0, 0, 0, 15, 255}}};
   EXPECT_FALSE(survey_map(full, {}).error.empty());
 }

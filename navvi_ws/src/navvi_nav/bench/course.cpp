@@ -78,11 +78,6 @@ std::vector<std::int8_t> bytes_of(const octomap::OcTree& tree) {
   return {text.begin(), text.end()};
 }
 
-Hall with_seed(Hall hall, std::uint32_t seed) {
-  hall.seed = seed;
-  return hall;
-}
-
 }  // namespace
 
 double now() {
@@ -91,10 +86,10 @@ double now() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-Course::Course(Hall hall, std::uint32_t seed)
+Course::Course(const Hall& hall)
     : name(hall.name()),
-      seed(seed),
-      tree(with_seed(hall, seed).map()),
+      seed(hall.seed),
+      tree(hall.map()),
       bytes(bytes_of(tree)),
       carved(config),
       columns(tree) {

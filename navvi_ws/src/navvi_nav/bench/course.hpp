@@ -22,7 +22,7 @@ struct Hall {
   double width = 30.0;   ///< m, along y
   /// m^2 of floor for one box or pedestal at a random place; 0: none, all aisles alike
   double clutter = 0.0;
-  std::uint32_t seed = 1;   ///< of the clutter
+  std::uint32_t seed = 1;   ///< of the clutter and the queries
   double resolution = 0.1;  ///< m
 
   [[nodiscard]] std::string name() const;  ///< as in "100 x 100 m cluttered"
@@ -43,8 +43,7 @@ struct Course {
   static constexpr double kRoom = 0.65;  ///< m, from the ends of a query to anything
   static constexpr double kNear = 0.5;   ///< m, from such an end to a mesh at most
 
-  /// \param seed  of clutter and queries
-  Course(Hall hall, std::uint32_t seed);
+  explicit Course(const Hall& hall);
 
   /// `count` discs of 0.5 m at random places of the floor.
   [[nodiscard]] std::vector<Cylinder> discs(int count) const;

@@ -364,7 +364,7 @@ int main(int argc, char** argv) {
        {Hall{50, 30}, Hall{50, 30, 25}, Hall{100, 100}, Hall{100, 100, 25}, Hall{300, 300}})
     if (hall.length <= largest || courses.empty())
       courses.push_back(std::make_unique<Course>(
-          Hall{hall.length, hall.width, hall.clutter, seed, resolution}, seed));
+          Hall{hall.length, hall.width, hall.clutter, seed, resolution}));
   if (judges) {
     for (const auto& course : courses) judge(*course, 125);
     return 0;

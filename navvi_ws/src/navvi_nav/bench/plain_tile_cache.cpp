@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace navvi_nav::plain {
 namespace {
@@ -41,37 +40,25 @@ Columns::Columns(const octomap::OcTree& tree) : cell_(tree.getResolution()) {
   width_ = cells(high[0] - low_[0]);
   height_ = cells(high[1] - low_[1]);
   levels_ = cells(high[2] - low_[2]);
-  // Twice over the leaves: the spans of each cell are counted, then put in their place.
-  const auto each_span = [&](const auto& visit) {
-    for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
-      if (!tree.isNodeOccupied(*leaf)) continue;
-      const double half = leaf.getSize() / 2.0;
-      const int x = cells(leaf.getX() - half - low_[0]), y = cells(leaf.getY() - half - low_[1]);
-      const int bottom = cells(leaf.getZ() - half - low_[2]), side = cells(leaf.getSize());
-      const Span span{static_cast<unsigned short>(bottom),
-                      static_cast<unsigned short>(bottom + side)};
-      for (int row = y; row < y + side; ++row)
-        for (int column = x; column < x + side; ++column) visit(index(column, row), span);
-    }
-  };
-  begin_.assign(index(0, height_) + 2, 0);
-  each_span([this](std::size_t cell, Span) { ++begin_[cell + 2]; });
-  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  spans_.resize(begin_.back());
-  each_span([this](std::size_t cell, Span span) { spans_[begin_[cell + 1]++] = span; });
-  begin_.pop_back();
-}
-
-std::size_t Columns::index(int x, int y) const {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-         static_cast<std::size_t>(x);
+  rcContext context(false);
+  all_ = field(context, 0, 0, width_, height_);
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) {
+    if (!tree.isNodeOccupied(*leaf)) continue;
+    const double half = leaf.getSize() / 2.0;
+    const int x = cells(leaf.getX() - half - low_[0]), y = cells(leaf.getY() - half - low_[1]);
+    const int bottom = cells(leaf.getZ() - half - low_[2]), side = cells(leaf.getSize());
+    for (int row = y; row < y + side; ++row)
+      for (int column = x; column < x + side; ++column)
+        rcAddSpan(&context, *all_, column, row, static_cast<unsigned short>(bottom),
+                  static_cast<unsigned short>(bottom + side), RC_WALKABLE_AREA, 0);
+  }
 }
 
 std::array<float, 3> Columns::low() const {
   return {static_cast<float>(low_[0]), static_cast<float>(low_[2]), static_cast<float>(low_[1])};
 }
 
-HeightField Columns::window(rcContext& context, int x, int y, int columns, int rows) const {
+HeightField Columns::field(rcContext& context, int x, int y, int columns, int rows) const {
   const float low[3] = {static_cast<float>(low_[0] + x * cell_), static_cast<float>(low_[2]),
                         static_cast<float>(low_[1] + y * cell_)};
   const float high[3] = {static_cast<float>(low_[0] + (x + columns) * cell_),
@@ -81,14 +68,17 @@ HeightField Columns::window(rcContext& context, int x, int y, int columns, int r
   require(field && rcCreateHeightfield(&context, *field, columns, rows, low, high,
                                        static_cast<float>(cell_), static_cast<float>(cell_)),
           "rcCreateHeightfield");
-  for (int row = std::max(0, y); row < std::min(height_, y + rows); ++row) {
-    for (int column = std::max(0, x); column < std::min(width_, x + columns); ++column) {
-      for (auto i = begin_[index(column, row)]; i < begin_[index(column, row) + 1]; ++i)
-        rcAddSpan(&context, *field, column - x, row - y, spans_[i].bottom, spans_[i].top,
-                  RC_WALKABLE_AREA, 0);
-    }
-  }
   return field;
+}
+
+HeightField Columns::window(rcContext& context, int x, int y, int columns, int rows) const {
+  HeightField window = field(context, x, y, columns, rows);
+  for (int row = std::max(0, y); row < std::min(height_, y + rows); ++row)
+    for (int column = std::max(0, x); column < std::min(width_, x + columns); ++column)
+      for (const rcSpan* span = all_->spans[row * width_ + column]; span; span = span->next)
+        rcAddSpan(&context, *window, column - x, row - y, static_cast<unsigned short>(span->smin),
+                  static_cast<unsigned short>(span->smax), RC_WALKABLE_AREA, 0);
+  return window;
 }
 
 CompactField walkable(rcContext& context, HeightField heights, double robot_radius,
@@ -164,11 +154,9 @@ struct TileCache::Copy : dtTileCacheCompressor {
     *written = size;
     return DT_SUCCESS;
   }
-  dtStatus decompress(const unsigned char* from, int size, unsigned char* to, int,
+  dtStatus decompress(const unsigned char* from, int size, unsigned char* to, int most,
                       int* written) override {
-    std::memcpy(to, from, static_cast<std::size_t>(size));
-    *written = size;
-    return DT_SUCCESS;
+    return compress(from, size, to, most, written);
   }
 };
 

@@ -46,18 +46,14 @@ class Columns {
   [[nodiscard]] HeightField window(rcContext& context, int x, int y, int columns, int rows) const;
 
  private:
-  struct Span {
-    unsigned short bottom, top;
-  };
-  [[nodiscard]] std::size_t index(int x, int y) const;
+  [[nodiscard]] HeightField field(rcContext& context, int x, int y, int columns, int rows) const;
 
   double cell_;
   std::array<double, 3> low_{};
   int width_ = 0;
   int height_ = 0;
   int levels_ = 0;
-  std::vector<std::uint32_t> begin_;  // of each cell's spans, row by row, and one more
-  std::vector<Span> spans_;
+  HeightField all_;
 };
 
 /// Walkable, eroded, with distances not yet made.

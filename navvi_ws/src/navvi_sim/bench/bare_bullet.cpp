@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/bullet_shapes.hpp"
+
 namespace navvi_sim::bench {
 namespace {
 
@@ -49,17 +51,6 @@ Thing mover(const std::string& name, const Eigen::Vector2d& at, double speed) {
 constexpr int kRobot = 1;  // collision groups
 constexpr int kThing = 2;
 
-btVector3 to_bt(const Eigen::Vector3d& v) {
-  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
-}
-
-btTransform to_bt(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.linear());
-  return btTransform(btQuaternion(static_cast<btScalar>(q.x()), static_cast<btScalar>(q.y()),
-                                  static_cast<btScalar>(q.z()), static_cast<btScalar>(q.w())),
-                     to_bt(Eigen::Vector3d(pose.translation())));
-}
-
 }  // namespace
 
 WorldDescription hall(int cells, std::size_t shelves, std::size_t movers) {
@@ -89,16 +80,25 @@ BareBullet::BareBullet(const WorldDescription& description, const physics::Robot
                        const Pose2& start) {
   world_.setGravity(btVector3(0, 0, 0));
   world_.setForceUpdateAllAabbs(false);
-  for (const Thing& thing : description.things)
-    if (thing.thing_class != ThingClass::floor) add_thing(thing);
+  const physics::Bodies bodies(description, description.floor_height + robot.clearance);
+  for (const physics::Body& body : bodies.all()) {
+    shapes_.push_back(physics::compound_of(body, {}, shapes_));
+    const Thing& thing = description.things[body.thing];
+    const Eigen::Isometry3d pose = body.moves ? thing.pose : Eigen::Isometry3d::Identity();
+    btRigidBody& added = add_body(0.0, *shapes_.back(), pose, kThing, kRobot);
+    if (!body.moves) continue;
+    added.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
+    added.setActivationState(DISABLE_DEACTIVATION);
+    movers_.push_back({&added, *thing.route, 0});
+  }
 
   const double half = 0.5 * (robot.height - robot.clearance);
   Eigen::Isometry3d pose(Eigen::AngleAxisd(start.yaw, Eigen::Vector3d::UnitZ()));
   pose.translation() = Eigen::Vector3d(start.position.x(), start.position.y(),
                                        description.floor_height + robot.clearance + half);
-  robot_ = &add_body(
-      robot.mass, keep<btCylinderShapeZ>(to_bt(Eigen::Vector3d(robot.radius, robot.radius, half))),
-      to_bt(pose), kRobot, kThing);
+  shapes_.push_back(std::make_unique<btCylinderShapeZ>(
+      physics::to_bt(Eigen::Vector3d(robot.radius, robot.radius, half))));
+  robot_ = &add_body(robot.mass, *shapes_.back(), pose, kRobot, kThing);
   robot_->setLinearFactor(btVector3(1, 1, 0));
   robot_->setAngularFactor(btVector3(0, 0, 1));
   robot_->setActivationState(DISABLE_DEACTIVATION);
@@ -108,45 +108,18 @@ BareBullet::~BareBullet() {
   for (const auto& body : bodies_) world_.removeRigidBody(body.get());
 }
 
-template <typename Shape, typename... Arguments>
-Shape& BareBullet::keep(Arguments&&... arguments) {
-  auto shape = std::make_unique<Shape>(std::forward<Arguments>(arguments)...);
-  Shape& kept = *shape;
-  shapes_.push_back(std::move(shape));
-  return kept;
-}
-
-btRigidBody& BareBullet::add_body(double mass, btCollisionShape& shape, const btTransform& pose,
-                                  int group, int mask) {
+btRigidBody& BareBullet::add_body(double mass, btCollisionShape& shape,
+                                  const Eigen::Isometry3d& pose, int group, int mask) {
   btVector3 inertia(0, 0, 0);
   if (mass > 0) shape.calculateLocalInertia(static_cast<btScalar>(mass), inertia);
   bodies_.push_back(std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
       static_cast<btScalar>(mass), nullptr, &shape, inertia)));
   btRigidBody& body = *bodies_.back();
-  body.setWorldTransform(pose);
-  body.setInterpolationWorldTransform(pose);
+  body.setWorldTransform(physics::to_bt(pose));
+  body.setInterpolationWorldTransform(physics::to_bt(pose));
   body.setFriction(0);
   world_.addRigidBody(&body, group, mask);
   return body;
-}
-
-void BareBullet::add_thing(const Thing& thing) {
-  auto& whole = keep<btCompoundShape>();
-  for (const Shape& shape : thing.shapes) {
-    const btTransform local = to_bt(shape.pose);
-    if (const auto* box = std::get_if<Box>(&shape.geometry))
-      whole.addChildShape(local, &keep<btBoxShape>(to_bt(Eigen::Vector3d(0.5 * box->size))));
-    else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry))
-      whole.addChildShape(local, &keep<btCylinderShapeZ>(to_bt(Eigen::Vector3d(
-                                     cylinder->radius, cylinder->radius, 0.5 * cylinder->length))));
-    else if (const auto* sphere = std::get_if<Sphere>(&shape.geometry))
-      whole.addChildShape(local, &keep<btSphereShape>(static_cast<btScalar>(sphere->radius)));
-  }
-  btRigidBody& body = add_body(0.0, whole, to_bt(thing.pose), kThing, kRobot);
-  if (!thing.route) return;
-  body.setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
-  body.setActivationState(DISABLE_DEACTIVATION);
-  movers_.push_back({&body, *thing.route, 0});
 }
 
 void BareBullet::step(double speed, double turn_rate, double dt) {

@@ -24,7 +24,7 @@ namespace navvi_sim::bench {
 /// of what stands still are not renewed, and things meet the robot only.
 class BareBullet {
  public:
-  /// Boxes, cylinders and spheres only; floors have no body.
+  /// No meshes.
   BareBullet(const WorldDescription& description, const physics::RobotConfig& robot,
              const Pose2& start);
   ~BareBullet();
@@ -41,11 +41,8 @@ class BareBullet {
     std::size_t next;  ///< way-point
   };
 
-  void add_thing(const Thing& thing);
-  btRigidBody& add_body(double mass, btCollisionShape& shape, const btTransform& pose, int group,
-                        int mask);
-  template <typename Shape, typename... Arguments>
-  Shape& keep(Arguments&&... arguments);
+  btRigidBody& add_body(double mass, btCollisionShape& shape, const Eigen::Isometry3d& pose,
+                        int group, int mask);
 
   // In this order: what is used is older than what uses it.
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;

@@ -57,22 +57,6 @@ Pose2 pose_of(const geometry_msgs::Pose& pose) {
   return {flat(pose.position), tf2::getYaw(tf2::Quaternion(q.x, q.y, q.z, q.w))};
 }
 
-geometry_msgs::Point point_msg(const Eigen::Vector2d& point, double z) {
-  geometry_msgs::Point msg;
-  msg.x = point.x();
-  msg.y = point.y();
-  msg.z = z;
-  return msg;
-}
-
-geometry_msgs::Pose pose_msg(const Pose2& pose, double z) {
-  geometry_msgs::Pose msg;
-  msg.position = point_msg(pose.position, z);
-  msg.orientation.z = std::sin(0.5 * pose.yaw);
-  msg.orientation.w = std::cos(0.5 * pose.yaw);
-  return msg;
-}
-
 std_msgs::Header header(const std::string& frame, std::int64_t stamp) {
   std_msgs::Header msg;
   msg.frame_id = frame;
@@ -109,6 +93,22 @@ void copy_guidance(const From& from, To& to) {
 }
 
 }  // namespace
+
+geometry_msgs::Point point_msg(const Eigen::Vector2d& point, double z) {
+  geometry_msgs::Point msg;
+  msg.x = point.x();
+  msg.y = point.y();
+  msg.z = z;
+  return msg;
+}
+
+geometry_msgs::Pose pose_msg(const Pose2& pose, double z) {
+  geometry_msgs::Pose msg;
+  msg.position = point_msg(pose.position, z);
+  msg.orientation.z = std::sin(0.5 * pose.yaw);
+  msg.orientation.w = std::cos(0.5 * pose.yaw);
+  return msg;
+}
 
 std::optional<Velocity> from_msg(const geometry_msgs::Twist& msg) {
   const geometry_msgs::Vector3 &linear = msg.linear, &angular = msg.angular;

@@ -16,11 +16,11 @@ struct CacheConfig {
   std::string build;  ///< what the results depend on besides their keys: the program, the machine
 };
 
-/// Keeps results in files, for other processes and later ones. A result stands there with its whole
-/// key and a hash, and is taken only if both are right. A result that cannot be kept, because the
-/// disk is full or the folder closed, is computed again next time. Any number of processes may use
-/// one folder: each file is written aside and renamed. The result that was used longest ago goes
-/// first.
+/// Keeps results in files, for other processes and later ones. A result stands there behind a hash
+/// of the build, its key and itself, and is taken only if that is right. A result that cannot be
+/// kept, because the disk is full or the folder closed, is computed again next time. Any number of
+/// processes may use one folder: each file is written aside and renamed. The result that was used
+/// longest ago goes first.
 class Cache {
  public:
   explicit Cache(CacheConfig config, SystemCalls calls = SystemCalls::real());
@@ -35,6 +35,7 @@ class Cache {
   /// Of 16 folders, each with its share of the megabytes: only one of them is looked through at a
   /// time.
   [[nodiscard]] std::filesystem::path file_of(const std::string& key) const;
+  [[nodiscard]] std::string seal_of(const std::string& key, std::string_view bytes) const;
   void make_room(const std::filesystem::path& folder) const;
   [[nodiscard]] std::uintmax_t most_bytes() const;  ///< of a folder
 

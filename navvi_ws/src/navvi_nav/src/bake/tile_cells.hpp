@@ -25,7 +25,12 @@ struct TileCells {
     return open[static_cast<std::size_t>((y + kBorder) * (size + 2 * kBorder) + x + kBorder)] != 0;
   }
   /// Of the tile, its border left out.
-  [[nodiscard]] std::int64_t count_open() const;
+  [[nodiscard]] std::int64_t count_open() const {
+    std::int64_t count = 0;
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) count += is_open(x, y);
+    return count;
+  }
   [[nodiscard]] bool operator==(const TileCells& other) const {
     return origin.x == other.origin.x && origin.y == other.origin.y && size == other.size &&
            open == other.open && fine == other.fine;

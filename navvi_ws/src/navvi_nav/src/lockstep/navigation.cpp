@@ -8,22 +8,20 @@
 
 namespace navvi_nav::lockstep {
 
-struct NavigationConfig::Values : guide::NavigatorConfig {};
+using guide::NavigatorConfig;
 
-NavigationConfig::NavigationConfig() : values_(std::make_unique<Values>()) {}
-NavigationConfig::NavigationConfig(const NavigationConfig& other)
-    : values_(std::make_unique<Values>(*other.values_)) {}
-NavigationConfig& NavigationConfig::operator=(const NavigationConfig& other) {
-  *values_ = *other.values_;
-  return *this;
+NavigationConfig::NavigationConfig() : values_(NavigatorConfig()) {}
+
+void NavigationConfig::describe(navvi_config::Visitor& visit) {
+  std::any_cast<NavigatorConfig&>(values_).describe(visit);
 }
-NavigationConfig::~NavigationConfig() = default;
 
-void NavigationConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
-double NavigationConfig::robot_height() const { return values_->planner.mesh.robot_height; }
+double NavigationConfig::robot_height() const {
+  return std::any_cast<const NavigatorConfig&>(values_).planner.mesh.robot_height;
+}
 
 struct Navigation::Parts {
-  Parts(const guide::NavigatorConfig& config, const navvi_files::Cache* cache)
+  Parts(const NavigatorConfig& config, const navvi_files::Cache* cache)
       : navigator(config), planner(config.planner, cache) {}
 
   guide::Navigator navigator;
@@ -35,7 +33,8 @@ struct Navigation::Parts {
 };
 
 Navigation::Navigation(const NavigationConfig& config, const navvi_files::Cache* cache)
-    : parts_(std::make_unique<Parts>(*config.values_, cache)) {}
+    : parts_(
+          std::make_unique<Parts>(std::any_cast<const NavigatorConfig&>(config.values_), cache)) {}
 Navigation::~Navigation() = default;
 
 void Navigation::set_map(std::vector<std::int8_t> data, const std::string& id, double resolution) {

@@ -9,14 +9,6 @@ constexpr std::uint32_t kMaxGridSide = 1000000;  // cells
 constexpr float kMeshAlpha = 0.35F;
 constexpr double kAboveFloor = 0.02;  // m
 
-geometry_msgs::Point point_msg(Point point, double z) {
-  geometry_msgs::Point out;
-  out.x = point.x;
-  out.y = point.y;
-  out.z = z;
-  return out;
-}
-
 }  // namespace
 
 plan::MapMessage from_msg(const octomap_msgs::Octomap& map) {
@@ -67,8 +59,10 @@ visualization_msgs::MarkerArray to_msg(const mesh::Mesh& mesh, double z, const s
   marker.color.a = kMeshAlpha;
   for (const mesh::Polygon& polygon : mesh.polygons) {
     for (std::size_t k = 2; k < polygon.corners.size(); ++k) {
-      for (const std::size_t corner : {std::size_t{0}, k - 1, k})
-        marker.points.push_back(point_msg(mesh.at(polygon.corners[corner]), z + kAboveFloor));
+      for (const std::size_t corner : {std::size_t{0}, k - 1, k}) {
+        const Point at = mesh.at(polygon.corners[corner]);
+        marker.points.push_back(navvi_types::point_msg({at.x, at.y}, z + kAboveFloor));
+      }
     }
   }
   out.markers.push_back(std::move(marker));

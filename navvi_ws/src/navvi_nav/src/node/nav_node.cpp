@@ -276,12 +276,8 @@ class NavNode {
     pose.header.frame_id = config_.map_frame;
     pose.header.stamp = ros::Time::now();
     pose.pose.orientation.w = 1.0;
-    if (const std::optional<Pose2> robot = navigator_.pose(now)) {
-      pose.pose.position.x = robot->position.x();
-      pose.pose.position.y = robot->position.y();
-      pose.pose.orientation.w = std::cos(robot->yaw / 2.0);
-      pose.pose.orientation.z = std::sin(robot->yaw / 2.0);
-    }
+    if (const std::optional<Pose2> robot = navigator_.pose(now))
+      pose.pose = navvi_types::pose_msg(*robot, 0.0);
     return pose;
   }
 

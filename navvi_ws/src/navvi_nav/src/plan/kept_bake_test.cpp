@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <sstream>
 
-#include "bake/baked_bytes.hpp"
 #include "small_world.hpp"
 #include "temp_folder.hpp"
 
@@ -122,16 +121,6 @@ TEST_F(KeptBake, keeps_no_map_that_is_rejected) {
   const Sent sent(world);
   EXPECT_NE(kept_bake(NavMesh(config_), sent.bytes(), std::nullopt, cache).error, "");
   EXPECT_TRUE(files().empty());
-}
-
-TEST(BakedBytes, that_are_cut_off_are_no_map) {
-  SmallWorld world;
-  world.room(4, 3);
-  const NavMesh mesh{NavMeshConfig{}};
-  const std::string bytes = bake::to_bytes(mesh.bake(world.voxels()));
-  EXPECT_TRUE(bake::from_bytes(bytes, 1));
-  for (std::size_t size = 0; size < bytes.size(); size += 7)
-    EXPECT_FALSE(bake::from_bytes(std::string_view(bytes).substr(0, size), 1)) << size;
 }
 
 }  // namespace

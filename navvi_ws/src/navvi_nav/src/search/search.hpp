@@ -20,10 +20,18 @@ class Search {
 
   /// The mesh may have changed since the last query. \returns valid until the next query
   const Found& find(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
-                    const mesh::Mesh::Place& goal);
+                    const mesh::Mesh::Place& goal) {
+    if (method_ == SearchMethod::exact) return find_at({}, mesh, start, goal);
+    return found_ = centroid_astar(mesh, start, goal, alpha_);
+  }
   /// A path by Polyanya at other prices, likewise.
   const Found& find_at(const Polyanya::Price& price, const mesh::Mesh& mesh,
-                       const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal);
+                       const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal) {
+    found_.found = polyanya_.find(mesh, start, goal, price, found_.path);
+    found_.nodes_expanded = polyanya_.nodes_expanded();
+    found_.length = length_of(found_.path);
+    return found_;
+  }
 
  private:
   SearchMethod method_;

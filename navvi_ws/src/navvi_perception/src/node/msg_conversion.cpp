@@ -221,12 +221,8 @@ std::vector<visualization_msgs::Marker> robot_markers(double radius, double heig
   nose.scale.x = nose.scale.y = nose.scale.z = 1.0;
   nose.pose.position.z = height + 0.02;
   nose.color.r = nose.color.b = 0.0F;
-  for (const auto& [x, y] : {std::pair{1.5, 0.0}, {-0.6, 0.75}, {-0.6, -0.75}}) {
-    geometry_msgs::Point corner;
-    corner.x = radius * x;
-    corner.y = radius * y;
-    nose.points.push_back(corner);
-  }
+  for (const auto& [x, y] : {std::pair{1.5, 0.0}, {-0.6, 0.75}, {-0.6, -0.75}})
+    nose.points.push_back(navvi_types::point_msg({radius * x, radius * y}, 0.0));
   return {body, nose};
 }
 
@@ -253,11 +249,7 @@ visualization_msgs::MarkerArray seen_msg(const std::vector<Eigen::Vector3d>& sta
     return marker;
   };
   const auto point = [](const Eigen::Vector3d& at) {
-    geometry_msgs::Point out;
-    out.x = at.x();
-    out.y = at.y();
-    out.z = at.z();
-    return out;
+    return navvi_types::point_msg(at.head<2>(), at.z());
   };
   // Of the last message nothing is left.
   add("", Marker::CYLINDER, Eigen::Vector3d::Zero()).action = Marker::DELETEALL;

@@ -192,16 +192,15 @@ class PerceptionNode {
     return false;
   }
 
-  void count(const std::string& topic, const std::string& why) {
+  /// \return whether it is the first of its kind
+  bool count(const std::string& topic, const std::string& why) {
     last_refusal_ = topic + ": " + why;
     refused_ = true;
-    (void)refusals_(last_refusal_);
+    return refusals_(last_refusal_);
   }
 
   void refuse(std::size_t sensor, const std::string& why) {
-    last_refusal_ = sensors_[sensor].topic + ": " + why;
-    refused_ = true;
-    if (refusals_(last_refusal_))
+    if (count(sensors_[sensor].topic, why))
       ROS_WARN("A message on %s was dropped: %s. More of this kind are dropped unsaid.",
                sensors_[sensor].topic.c_str(), why.c_str());
   }

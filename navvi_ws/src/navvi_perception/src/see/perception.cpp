@@ -22,9 +22,7 @@ Eigen::Vector2d nearest_of(const map::Column& column, double side, const Eigen::
   return place.cwiseMax(low).cwiseMin(low + Eigen::Vector2d(side, side));
 }
 
-}  // namespace
-
-struct PerceptionConfig::Values {
+struct Values {
   map::MapConfig map;
   tracks::TrackConfig tracks;
   double robot_radius = 0.35;     ///< m; what is nearer than this is the robot itself
@@ -49,22 +47,19 @@ struct PerceptionConfig::Values {
   }
 };
 
-PerceptionConfig::PerceptionConfig() : values_(std::make_unique<Values>()) {}
-PerceptionConfig::PerceptionConfig(const PerceptionConfig& other)
-    : values_(std::make_unique<Values>(*other.values_)) {}
-PerceptionConfig& PerceptionConfig::operator=(const PerceptionConfig& other) {
-  *values_ = *other.values_;
-  return *this;
-}
-PerceptionConfig::~PerceptionConfig() = default;
+Values& of(std::any& values) { return std::any_cast<Values&>(values); }
+const Values& of(const std::any& values) { return std::any_cast<const Values&>(values); }
 
-void PerceptionConfig::describe(navvi_config::Visitor& visit) { values_->describe(visit); }
-double PerceptionConfig::resolution() const { return values_->map.resolution; }
-double PerceptionConfig::robot_radius() const { return values_->robot_radius; }
-void PerceptionConfig::set_robot_height(double height) { values_->map.high = height; }
-double PerceptionConfig::robot_height() const { return values_->map.high; }
+}  // namespace
+
+PerceptionConfig::PerceptionConfig() : values_(Values()) {}
+void PerceptionConfig::describe(navvi_config::Visitor& visit) { of(values_).describe(visit); }
+double PerceptionConfig::resolution() const { return of(values_).map.resolution; }
+double PerceptionConfig::robot_radius() const { return of(values_).robot_radius; }
+void PerceptionConfig::set_robot_height(double height) { of(values_).map.high = height; }
+double PerceptionConfig::robot_height() const { return of(values_).map.high; }
 sight::Prior PerceptionConfig::prior_of(const std::string& file) const {
-  return map::prior_of(file, values_->map);
+  return map::prior_of(file, of(values_).map);
 }
 
 struct Perception::Parts {
@@ -73,7 +68,7 @@ struct Perception::Parts {
     std::int64_t mapped = 0;  ///< ns
   };
 
-  Parts(const PerceptionConfig::Values& values, const sight::Prior& prior)
+  Parts(const Values& values, const sight::Prior& prior)
       : config(values), map(values.map, prior) {}
 
   /// The points that the map does not explain; all others, but for those of movers that a lower
@@ -85,7 +80,7 @@ struct Perception::Parts {
   template <typename Visit>
   void for_each_track(const Visit& visit) const;
 
-  PerceptionConfig::Values config;
+  Values config;
   map::LocalMap map;
   std::vector<Sensor> sensors;
   clusters::StandingThings standing;
@@ -99,7 +94,7 @@ struct Perception::Parts {
 };
 
 Perception::Perception(const PerceptionConfig& config, const sight::Prior& prior)
-    : parts_(std::make_unique<Parts>(*config.values_, prior)) {}
+    : parts_(std::make_unique<Parts>(of(config.values_), prior)) {}
 Perception::~Perception() = default;
 
 std::vector<Eigen::Vector3d> Perception::Parts::strange(const sight::Sight& sight,
@@ -142,7 +137,7 @@ bool Perception::believes(const sight::Sight& sight) const {
 
 void Perception::take(const sight::Sight& sight) {
   Parts& parts = *parts_;
-  const PerceptionConfig::Values& config = parts.config;
+  const Values& config = parts.config;
   while (parts.sensors.size() <= sight.sensor)
     parts.sensors.push_back({tracks::Tracker(config.tracks), 0});
   Parts::Sensor& sensor = parts.sensors[sight.sensor];
@@ -221,7 +216,7 @@ void Perception::Parts::look_up(const navvi_types::Pose2& robot) {
 navvi_types::Proximity Perception::proximity(const navvi_types::Pose2& robot, std::int64_t stamp) {
   using navvi_types::ThingClass;
   Parts& parts = *parts_;
-  const PerceptionConfig::Values& config = parts.config;
+  const Values& config = parts.config;
   parts.look_up(robot);
   navvi_types::Proximity out{stamp, {}, config.detection_radius};
   const auto add = [&](std::uint32_t id, ThingClass thing_class, const Eigen::Vector2d& nearest,

@@ -22,12 +22,6 @@ struct LayoutFile {
   }
 };
 
-bool has_key(const YAML::Node& map, const std::string& key) {
-  for (const auto& entry : map)
-    if (entry.first.IsScalar() && entry.first.Scalar() == key) return true;
-  return false;
-}
-
 }  // namespace
 
 WorldDescription LayoutSource::build(std::uint64_t seed) const {
@@ -42,7 +36,7 @@ WorldDescription LayoutSource::build(std::uint64_t seed) const {
 LayoutSource read_layout(const std::filesystem::path& file) {
   try {
     const YAML::Node node = navvi_config::load_yaml(file);
-    if (!node.IsMap() || !(has_key(node, "layout") || has_key(node, "preset")))
+    if (!node.IsMap() || !(node["layout"] || node["preset"]))
       throw WorldError(file.string() +
                        ": this is not a layout; it needs preset or layout, and may have name");
     LayoutFile content;
@@ -54,11 +48,10 @@ LayoutSource read_layout(const std::filesystem::path& file) {
                         content.config,
                         file.string(),
                         {}};
-    for (const auto& entry : node)
-      if (entry.first.Scalar() == "layout" && entry.second.IsMap())
-        for (const auto& field : entry.second)
-          source.places[field.first.Scalar()] =
-              file.string() + ", line " + std::to_string(field.first.Mark().line + 1);
+    if (node["layout"] && node["layout"].IsMap())
+      for (const auto& field : node["layout"])
+        source.places[field.first.Scalar()] =
+            file.string() + ", line " + std::to_string(field.first.Mark().line + 1);
     return source;
   } catch (const navvi_config::ConfigError& error) {
     throw WorldError(error.what());

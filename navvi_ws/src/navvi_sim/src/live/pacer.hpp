@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace navvi_sim::live {
 
 /// How many fixed steps are due, so that simulated time keeps pace with a wall clock. When it
@@ -13,7 +15,20 @@ class Pacer {
   Pacer(double step, double rate, int max_steps) : wall_step_(step / rate), max_steps_(max_steps) {}
 
   /// \param wall  s, monotonic; the first call only starts the count
-  [[nodiscard]] int due(double wall);
+  [[nodiscard]] int due(double wall) {
+    if (!started_ || wall < origin_) {
+      started_ = true;
+      origin_ = wall;
+      steps_ = 0;
+      return 0;
+    }
+    const long target = static_cast<long>(std::floor((wall - origin_) / wall_step_ + 1e-9));
+    const long missing = target - steps_;
+    steps_ = target;
+    if (missing <= max_steps_) return static_cast<int>(missing);
+    dropped_ += missing - max_steps_;
+    return max_steps_;
+  }
 
   /// Steps let go so far.
   [[nodiscard]] long dropped() const { return dropped_; }

@@ -2,17 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <navvi_config/reader.hpp>
 
 #include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
-#include "temp_folder.hpp"
 
 namespace navvi_sim::live {
 namespace {
@@ -97,36 +92,6 @@ TEST(Session, repeats_after_fifty_other_trials_in_the_same_process) {
     ASSERT_EQ(other.driven(100).hashes.size(), 2u);
   }
   EXPECT_EQ(drive.driven(kSteps).hashes, first);
-}
-
-/// What another process says of the same drive.
-std::vector<navvi_types::StateHash> in_another_process(const std::filesystem::path& folder) {
-  const std::string command = std::string(LOCKSTEP) + " " + (folder / "parameters.yaml").string() +
-                              " " + (folder / "commands.csv").string() + " 20";
-  std::vector<navvi_types::StateHash> hashes;
-  FILE* pipe = popen(command.c_str(), "r");
-  unsigned long long step = 0, hash = 0;
-  while (std::fscanf(pipe, "%llu %llx", &step, &hash) == 2) hashes.push_back({0, step, hash});
-  EXPECT_EQ(pclose(pipe), 0);
-  return hashes;
-}
-
-TEST(Session, repeats_in_other_processes_from_its_written_recipe) {
-  const navvi_test::TempFolder folder;
-  const Drive drive(5);
-  const Record first = drive.driven(kSteps);
-  folder.write("parameters.yaml", setup::recipe(drive.config, drive.scenario));
-  std::ofstream commands(folder / "commands.csv");
-  for (const AppliedCommand& command : first.commands) {
-    std::array<char, 128> line{};
-    std::snprintf(line.data(), line.size(), "%llu,%.17g,%.17g,%d\n",
-                  static_cast<unsigned long long>(command.step), command.velocity.linear,
-                  command.velocity.angular, command.braking == physics::Braking::emergency);
-    commands << line.data();
-  }
-  commands.close();
-  EXPECT_EQ(in_another_process(folder), first.hashes);
-  EXPECT_EQ(in_another_process(folder), first.hashes);
 }
 
 TEST(Recipe, gives_start_and_goal_back_bit_for_bit) {

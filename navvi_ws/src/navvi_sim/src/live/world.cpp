@@ -5,9 +5,9 @@
 
 #include "description/footprint.hpp"
 #include "description/hash.hpp"
-#include "physics/drivetrain.hpp"
 #include "physics/physics.hpp"
 #include "physics/proximity.hpp"
+#include "physics/wheel_odometry.hpp"
 #include "traffic/traffic.hpp"
 
 namespace navvi_sim::live {
@@ -38,7 +38,7 @@ struct World::Parts {
       : traffic(description, config.movers, seed),
         bodies(description, description.floor_height + config.robot.clearance),
         physics(bodies, description.floor_height, config.robot, start.position, start.yaw),
-        drivetrain(config.robot, config.step, physics.robot(), seed) {
+        odometry(config.robot.imperfections, config.step, physics.robot(), seed) {
     for (const Thing& thing : description.things) {
       classes.push_back(obstacle_class(thing));
       names.push_back(thing.name);
@@ -51,7 +51,7 @@ struct World::Parts {
   std::vector<Stance> stances;  ///< by index in traffic
   physics::Bodies bodies;
   physics::Physics physics;
-  physics::Drivetrain drivetrain;
+  physics::WheelOdometry odometry;
   physics::ContactCounter contacts;
 };
 
@@ -98,7 +98,7 @@ World::Status World::step(const navvi_types::Velocity& command, physics::Braking
   step_movers();
   drive_robot(command, braking);
   parts_->physics.advance(config_.step, now_.movers);
-  parts_->drivetrain.count(now_.robot, parts_->physics.robot());
+  parts_->odometry.count(now_.robot, parts_->physics.robot());
   ++steps_;
   take_snapshot();
   if (!finite()) {
@@ -193,7 +193,8 @@ void World::drive_robot(const navvi_types::Velocity& command, physics::Braking b
   const physics::RobotState& robot = now_.robot;
   const navvi_types::Velocity measured{std::clamp(robot.forward_speed(), -kMaxPushed, kMaxPushed),
                                        robot.turn_rate};
-  const navvi_types::Velocity wheels = parts_->drivetrain.drive(measured, command, braking);
+  const navvi_types::Velocity wheels =
+      physics::servo(config_.robot, measured, command, braking, config_.step);
   parts_->physics.set_robot_velocity(
       wheels.linear * Eigen::Vector2d(std::cos(robot.yaw), std::sin(robot.yaw)), wheels.angular);
 }
@@ -201,7 +202,7 @@ void World::drive_robot(const navvi_types::Velocity& command, physics::Braking b
 void World::take_snapshot() {
   now_.time = static_cast<double>(steps_) * config_.step;
   now_.robot = parts_->physics.robot();
-  now_.odometry = parts_->drivetrain.odometry();
+  now_.odometry = parts_->odometry.now();
   now_.contacts.clear();
 }
 
@@ -214,7 +215,7 @@ bool World::finite() const {
 
 std::uint64_t World::state_hash() const {
   std::uint64_t hash = mix(kHashBasis, static_cast<double>(steps_));
-  hash = parts_->traffic.hash(parts_->drivetrain.hash(parts_->physics.hash(hash)));
+  hash = parts_->traffic.hash(parts_->odometry.hash(parts_->physics.hash(hash)));
   for (const auto& [thing, apart] : parts_->contacts.held())
     hash = mix(mix(hash, static_cast<double>(thing)), apart);
   for (const auto& [thing_class, count] : parts_->contacts.counts())

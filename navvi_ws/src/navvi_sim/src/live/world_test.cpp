@@ -340,7 +340,6 @@ TEST(World, can_wait_for_the_robot_and_then_lives_as_if_it_had_not_waited) {
   description.things.push_back(mover_thing({-1, -4}, {-1, 4}, 1.0));
   WorldConfig config;
   config.wait_for_robot = true;
-  config.robot.imperfections.slip_noise = 0.1;
   const auto life_after = [&](int waited) {
     World world(description, config, {{3, 0}, 0.1}, 7);
     const Eigen::Vector2d start = world.now().movers.at(0).thing.pose.position;

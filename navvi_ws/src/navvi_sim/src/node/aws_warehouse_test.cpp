@@ -4,7 +4,6 @@
 
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
-#include "read/thing_table.hpp"
 #include "sdf_folder.hpp"
 
 namespace navvi_sim::node {
@@ -26,6 +25,7 @@ class AwsWarehouse : public testing::Test {
 TEST_F(AwsWarehouse, has_all_models_at_their_size) {
   const WorldDescription& world = loaded_.world;
   EXPECT_EQ(world.things.size(), 25U);
+  EXPECT_EQ(loaded_.notes.size(), 1U) << "nothing is lost but light and physics";
   const auto size_of = [&](const std::string& name) -> Eigen::Vector3d {
     const Thing* thing = read::thing_named(world, "aws_robomaker_warehouse_" + name);
     if (!thing) return Eigen::Vector3d::Zero();
@@ -52,16 +52,6 @@ TEST_F(AwsWarehouse, lets_a_robot_go_from_the_south_to_the_north) {
       loaded_.world, map, {}, 1, Pose2{{1.0, -9.0}, 1.57}, Eigen::Vector2d(1.0, 6.0));
   EXPECT_GE(scenario.route_length, 15.0 - 0.1);
   EXPECT_LT(scenario.route_length, 25.0);
-}
-
-TEST_F(AwsWarehouse, tells_what_each_thing_is_and_why) {
-  const std::string table = read::thing_table(loaded_, 3);
-  EXPECT_NE(
-      table.find("aws_robomaker_warehouse_ShelfF_01_001  shelf  *shelf*  1 mesh (116 triangles)"),
-      std::string::npos)
-      << table;
-  EXPECT_NE(table.find("and 22 more"), std::string::npos) << table;
-  EXPECT_EQ(loaded_.notes.size(), 1U) << "nothing is lost but light and physics";
 }
 
 }  // namespace

@@ -17,7 +17,6 @@
 #include "node/clock_check.hpp"
 #include "node/robot_sensors.hpp"
 #include "node/world_outlets.hpp"
-#include "read/thing_table.hpp"
 
 namespace navvi_sim::node {
 namespace {
@@ -172,8 +171,6 @@ bool SimNode::step() {
 /// \throws ConfigError with a sentence on the world that was chosen
 int run(const setup::SimNodeConfig& config) try {
   read::LoadedWorld loaded = setup::load_world(config);
-  if (!loaded.rules.empty())
-    ROS_INFO("what the models of the world are:\n%s", read::thing_table(loaded, 100).c_str());
   const SimNode sim(config, std::move(loaded));
   ros::spin();
   return sim.exit_code();

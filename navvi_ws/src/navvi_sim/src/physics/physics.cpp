@@ -1,13 +1,9 @@
 #include "physics/physics.hpp"
 
-#include <btBulletDynamicsCommon.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "description/hash.hpp"
-#include "physics/bullet_shapes.hpp"
 
 namespace navvi_sim::physics {
 namespace {
@@ -23,14 +19,6 @@ constexpr int kThing = 2;
 constexpr std::uint64_t kGatherEach = 10;  // steps
 constexpr double kEnter = 1.0;             // m, at which a thing comes into Bullet's world
 constexpr double kLeave = 1.5;             // m, at which it leaves
-
-/// One thing in Bullet.
-struct Presence {
-  std::vector<std::unique_ptr<btCollisionShape>> shapes;  ///< its parts, then the whole
-  std::unique_ptr<btCollisionObject> object;
-  btRigidBody* moving = nullptr;  ///< the same, if it moves
-  std::size_t mover = 0;          ///< its index among the movers
-};
 
 /// rad, in (-pi, pi]
 double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
@@ -70,70 +58,46 @@ std::vector<navvi_types::Contact> ContactCounter::update(
   return begun;
 }
 
-struct Physics::Impl {
-  explicit Impl(const Bodies& all) : bodies(all) {}
-  ~Impl();
-
-  const Bodies& bodies;
-  // In this order: what is used is older than what uses it.
-  MeshShapes meshes;
-  btDefaultCollisionConfiguration configuration{pools()};
-  btCollisionDispatcher dispatcher{&configuration};
-  btDbvtBroadphase broadphase;
-  btSequentialImpulseConstraintSolver solver;
-  std::map<std::size_t, Presence> present;  ///< by thing
-  std::unique_ptr<btCylinderShapeZ> hull;
-  std::unique_ptr<btRigidBody> robot;
-  btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-  // The hull is round and without friction, so no contact can turn it, and Bullet's body, whose
-  // contact points would turn with it into what it touches, never does: the wheels alone turn it.
-  double yaw = 0.0;                                         ///< rad, in (-pi, pi]
-  double turn_rate = 0.0;                                   ///< rad/s
-  Eigen::AlignedBox3d around;                               ///< the hull's bounds about its centre
-  std::vector<std::pair<std::size_t, std::size_t>> wanted;  ///< thing, mover
-  std::vector<Touch> touches;
-  std::uint64_t steps = 0;
-
-  void add_robot(const RobotConfig& config, double floor, const Eigen::Vector2d& position,
-                 double start_yaw);
-  void enter(const Body& body, const Eigen::Isometry3d& pose, std::size_t mover);
-  void gather(const std::vector<MoverState>& movers);
-  void find_touches();
-};
-
-Physics::Impl::~Impl() {
-  for (int i = world.getNumCollisionObjects() - 1; i >= 0; --i)
-    world.removeCollisionObject(world.getCollisionObjectArray()[i]);
-}
-
-void Physics::Impl::add_robot(const RobotConfig& config, double floor,
-                              const Eigen::Vector2d& position, double start_yaw) {
-  yaw = wrapped(start_yaw);
-  const double half = 0.5 * (config.height - config.clearance);
-  const Eigen::Vector3d extents(config.radius, config.radius, half);
-  around = {-extents, extents};
-  hull = std::make_unique<btCylinderShapeZ>(to_bt(extents));
-  hull->setMargin(static_cast<btScalar>(kRobotMargin));
-  robot = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
-      static_cast<btScalar>(config.mass), nullptr, hull.get()));
+Physics::Physics(const Bodies& bodies, double floor, const RobotConfig& robot,
+                 const Eigen::Vector2d& position, double yaw)
+    : bodies_(bodies),
+      meshes_(meshes_of(bodies)),
+      configuration_(pools()),
+      yaw_(wrapped(yaw)) {
+  world_.setGravity(btVector3(0, 0, 0));
+  world_.setForceUpdateAllAabbs(false);
+  world_.getSolverInfo().m_numIterations = 20;
+  const double half = 0.5 * (robot.height - robot.clearance);
+  const Eigen::Vector3d extents(robot.radius, robot.radius, half);
+  around_ = {-extents, extents};
+  hull_ = std::make_unique<btCylinderShapeZ>(to_bt(extents));
+  hull_->setMargin(static_cast<btScalar>(kRobotMargin));
+  robot_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(
+      static_cast<btScalar>(robot.mass), nullptr, hull_.get()));
   const btTransform pose(
       btQuaternion::getIdentity(),
-      to_bt(Eigen::Vector3d(position.x(), position.y(), floor + config.clearance + half)));
-  robot->setWorldTransform(pose);
-  robot->setInterpolationWorldTransform(pose);
-  robot->setLinearFactor(btVector3(1, 1, 0));
-  robot->setAngularFactor(btVector3(0, 0, 0));
-  robot->setActivationState(DISABLE_DEACTIVATION);
-  robot->setFriction(0);
-  robot->setRestitution(0);
-  robot->setUserIndex(-1);
-  world.addRigidBody(robot.get(), kRobot, kThing);
+      to_bt(Eigen::Vector3d(position.x(), position.y(), floor + robot.clearance + half)));
+  robot_->setWorldTransform(pose);
+  robot_->setInterpolationWorldTransform(pose);
+  robot_->setLinearFactor(btVector3(1, 1, 0));
+  robot_->setAngularFactor(btVector3(0, 0, 0));
+  robot_->setActivationState(DISABLE_DEACTIVATION);
+  robot_->setFriction(0);
+  robot_->setRestitution(0);
+  robot_->setUserIndex(-1);
+  world_.addRigidBody(robot_.get(), kRobot, kThing);
+  world_.updateAabbs();
+}
+
+Physics::~Physics() {
+  for (int i = world_.getNumCollisionObjects() - 1; i >= 0; --i)
+    world_.removeCollisionObject(world_.getCollisionObjectArray()[i]);
 }
 
 /// \param pose  of a thing that moves
-void Physics::Impl::enter(const Body& body, const Eigen::Isometry3d& pose, std::size_t mover) {
+void Physics::enter(const Body& body, const Eigen::Isometry3d& pose, std::size_t mover) {
   Presence presence;
-  auto compound = compound_of(body, meshes, presence.shapes);
+  auto compound = compound_of(body, meshes_, presence.shapes);
   const btTransform at = body.moves ? to_bt(pose) : btTransform::getIdentity();
   if (body.moves) {
     auto rigid = std::make_unique<btRigidBody>(
@@ -153,119 +117,105 @@ void Physics::Impl::enter(const Body& body, const Eigen::Isometry3d& pose, std::
   presence.object->setFriction(0);
   presence.object->setUserIndex(static_cast<int>(body.thing));
   if (presence.moving)
-    world.addRigidBody(presence.moving, kThing, kRobot);
+    world_.addRigidBody(presence.moving, kThing, kRobot);
   else
-    world.addCollisionObject(presence.object.get(), kThing, kRobot);
-  present.emplace(body.thing, std::move(presence));
+    world_.addCollisionObject(presence.object.get(), kThing, kRobot);
+  present_.emplace(body.thing, std::move(presence));
 }
 
 /// Takes in, in the order of things, what has come near, and lets go of what is far.
-void Physics::Impl::gather(const std::vector<MoverState>& movers) {
-  const Eigen::Vector3d centre = from_bt(robot->getWorldTransform().getOrigin());
-  const Eigen::AlignedBox3d here(around.min() + centre, around.max() + centre);
-  wanted.clear();
+void Physics::gather(const std::vector<MoverState>& movers) {
+  const Eigen::Vector3d centre = from_bt(robot_->getWorldTransform().getOrigin());
+  const Eigen::AlignedBox3d here(around_.min() + centre, around_.max() + centre);
+  wanted_.clear();
   const auto consider = [&](std::size_t thing, std::size_t mover, double distance) {
-    if (distance <= kEnter || (distance <= kLeave && present.count(thing) > 0))
-      wanted.emplace_back(thing, mover);
+    if (distance <= kEnter || (distance <= kLeave && present_.count(thing) > 0))
+      wanted_.emplace_back(thing, mover);
   };
-  bodies.tree().search([&](const Eigen::AlignedBox3d& box) { return here.exteriorDistance(box); },
-                       [] { return kLeave; },
-                       [&](std::uint32_t index) {
-                         const Body& body = bodies.all()[bodies.standing()[index]];
-                         consider(body.thing, 0, here.exteriorDistance(body.bounds));
-                       });
-  const double radius = around.max().x();
+  bodies_.tree().search(
+      [&](const Eigen::AlignedBox3d& box) { return here.exteriorDistance(box); },
+      [] { return kLeave; },
+      [&](std::uint32_t index) {
+        const Body& body = bodies_.all()[bodies_.standing()[index]];
+        consider(body.thing, 0, here.exteriorDistance(body.bounds));
+      });
+  const double radius = around_.max().x();
   for (std::size_t i = 0; i < movers.size(); ++i) {
     const double reach = kLeave + radius + movers[i].thing.radius;
     const Eigen::Vector2d away = movers[i].pose.translation().head<2>() - centre.head<2>();
     if (away.squaredNorm() < reach * reach)
       consider(movers[i].thing.id, i, away.norm() - radius - movers[i].thing.radius);
   }
-  std::sort(wanted.begin(), wanted.end());
-  for (auto entry = present.begin(); entry != present.end();) {
-    const bool stays = std::binary_search(wanted.begin(), wanted.end(),
+  std::sort(wanted_.begin(), wanted_.end());
+  for (auto entry = present_.begin(); entry != present_.end();) {
+    const bool stays = std::binary_search(wanted_.begin(), wanted_.end(),
                                           std::make_pair(entry->first, entry->second.mover));
     if (stays) {
       ++entry;
       continue;
     }
-    world.removeCollisionObject(entry->second.object.get());
-    entry = present.erase(entry);
+    world_.removeCollisionObject(entry->second.object.get());
+    entry = present_.erase(entry);
   }
-  for (const auto& [thing, mover] : wanted) {
-    if (present.count(thing) > 0) continue;
-    const Body* body = bodies.of(thing);
+  for (const auto& [thing, mover] : wanted_) {
+    if (present_.count(thing) > 0) continue;
+    const Body* body = bodies_.of(thing);
     if (body) enter(*body, body->moves ? movers[mover].pose : Eigen::Isometry3d::Identity(), mover);
   }
 }
 
-void Physics::Impl::find_touches() {
-  touches.clear();
-  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-    const bool robot_first = manifold.getBody0() == robot.get();
+void Physics::find_touches() {
+  touches_.clear();
+  for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(i);
+    const bool robot_first = manifold.getBody0() == robot_.get();
     const btCollisionObject* other = robot_first ? manifold.getBody1() : manifold.getBody0();
     for (int p = 0; p < manifold.getNumContacts(); ++p) {
       const btManifoldPoint& contact = manifold.getContactPoint(p);
       const btVector3& point =
           robot_first ? contact.getPositionWorldOnB() : contact.getPositionWorldOnA();
-      touches.push_back(
+      touches_.push_back(
           {static_cast<std::size_t>(other->getUserIndex()), contact.getDistance(), from_bt(point)});
     }
   }
-  std::stable_sort(touches.begin(), touches.end(), [](const Touch& a, const Touch& b) {
+  std::stable_sort(touches_.begin(), touches_.end(), [](const Touch& a, const Touch& b) {
     return a.thing != b.thing ? a.thing < b.thing : a.distance < b.distance;
   });
-  touches.erase(std::unique(touches.begin(), touches.end(),
-                            [](const Touch& a, const Touch& b) { return a.thing == b.thing; }),
-                touches.end());
+  touches_.erase(std::unique(touches_.begin(), touches_.end(),
+                             [](const Touch& a, const Touch& b) { return a.thing == b.thing; }),
+                 touches_.end());
 }
-
-Physics::Physics(const Bodies& bodies, double floor, const RobotConfig& robot,
-                 const Eigen::Vector2d& position, double yaw)
-    : impl_(std::make_unique<Impl>(bodies)) {
-  impl_->world.setGravity(btVector3(0, 0, 0));
-  impl_->world.setForceUpdateAllAabbs(false);
-  impl_->world.getSolverInfo().m_numIterations = 20;
-  impl_->meshes = meshes_of(bodies);
-  impl_->add_robot(robot, floor, position, yaw);
-  impl_->world.updateAabbs();
-}
-
-Physics::~Physics() = default;
 
 void Physics::set_robot_velocity(const Eigen::Vector2d& velocity, double turn_rate) {
-  impl_->robot->setLinearVelocity(to_bt(Eigen::Vector3d(velocity.x(), velocity.y(), 0.0)));
-  impl_->turn_rate = turn_rate;
+  robot_->setLinearVelocity(to_bt(Eigen::Vector3d(velocity.x(), velocity.y(), 0.0)));
+  turn_rate_ = turn_rate;
 }
 
 void Physics::advance(double dt, const std::vector<MoverState>& movers) {
-  if (impl_->steps++ % kGatherEach == 0) impl_->gather(movers);
-  for (auto& entry : impl_->present)
+  if (steps_++ % kGatherEach == 0) gather(movers);
+  for (auto& entry : present_)
     if (entry.second.moving)
       entry.second.moving->setWorldTransform(to_bt(movers[entry.second.mover].pose));
-  impl_->world.stepSimulation(static_cast<btScalar>(dt), 0);
-  impl_->yaw = wrapped(impl_->yaw + impl_->turn_rate * dt);
-  impl_->find_touches();
+  world_.stepSimulation(static_cast<btScalar>(dt), 0);
+  yaw_ = wrapped(yaw_ + turn_rate_ * dt);
+  find_touches();
 }
-
-const std::vector<Touch>& Physics::touches() const { return impl_->touches; }
 
 RobotState Physics::robot() const {
   RobotState state;
-  state.position = from_bt(impl_->robot->getWorldTransform().getOrigin()).head<2>();
-  state.yaw = impl_->yaw;
-  state.velocity = from_bt(impl_->robot->getLinearVelocity()).head<2>();
-  state.turn_rate = impl_->turn_rate;
+  state.position = from_bt(robot_->getWorldTransform().getOrigin()).head<2>();
+  state.yaw = yaw_;
+  state.velocity = from_bt(robot_->getLinearVelocity()).head<2>();
+  state.turn_rate = turn_rate_;
   return state;
 }
 
 std::uint64_t Physics::hash(std::uint64_t hash) const {
   for (const btVector3& vector :
-       {impl_->robot->getWorldTransform().getOrigin(), impl_->robot->getLinearVelocity()})
+       {robot_->getWorldTransform().getOrigin(), robot_->getLinearVelocity()})
     for (const btScalar value : {vector.x(), vector.y(), vector.z()})
       hash = mix_bytes(hash, &value, sizeof value);
-  for (const double value : {impl_->yaw, impl_->turn_rate}) hash = mix(hash, value);
+  for (const double value : {yaw_, turn_rate_}) hash = mix(hash, value);
   return hash;
 }
 

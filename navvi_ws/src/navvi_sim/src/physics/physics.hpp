@@ -1,5 +1,7 @@
 #pragma once
 
+#include <btBulletDynamicsCommon.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
@@ -7,11 +9,13 @@
 #include <map>
 #include <memory>
 #include <navvi_types/thing.hpp>
+#include <utility>
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/physics/robot.hpp"
 #include "physics/bodies.hpp"
+#include "physics/bullet_shapes.hpp"
 
 namespace navvi_sim::physics {
 
@@ -73,13 +77,42 @@ class Physics {
 
   [[nodiscard]] RobotState robot() const;
   /// What the last step brought within the contact threshold (0.02 m), ordered by thing.
-  [[nodiscard]] const std::vector<Touch>& touches() const;
+  [[nodiscard]] const std::vector<Touch>& touches() const { return touches_; }
   /// Mixes every bit of the robot's state into `hash` (FNV-1a).
   [[nodiscard]] std::uint64_t hash(std::uint64_t hash) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  /// One thing in Bullet.
+  struct Presence {
+    std::vector<std::unique_ptr<btCollisionShape>> shapes;  ///< its parts, then the whole
+    std::unique_ptr<btCollisionObject> object;
+    btRigidBody* moving = nullptr;  ///< the same, if it moves
+    std::size_t mover = 0;          ///< its index among the movers
+  };
+
+  void enter(const Body& body, const Eigen::Isometry3d& pose, std::size_t mover);
+  void gather(const std::vector<MoverState>& movers);
+  void find_touches();
+
+  const Bodies& bodies_;
+  // In this order: what is used is older than what uses it.
+  MeshShapes meshes_;
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  std::map<std::size_t, Presence> present_;  ///< by thing
+  std::unique_ptr<btCylinderShapeZ> hull_;
+  std::unique_ptr<btRigidBody> robot_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  // The hull is round and without friction, so no contact can turn it, and Bullet's body, whose
+  // contact points would turn with it into what it touches, never does: the wheels alone turn it.
+  double yaw_;                                               ///< rad, in (-pi, pi]
+  double turn_rate_ = 0.0;                                   ///< rad/s
+  Eigen::AlignedBox3d around_;                               ///< the hull's bounds about its centre
+  std::vector<std::pair<std::size_t, std::size_t>> wanted_;  ///< thing, mover
+  std::vector<Touch> touches_;
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace navvi_sim::physics

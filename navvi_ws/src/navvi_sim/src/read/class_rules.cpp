@@ -106,13 +106,12 @@ ClassRules ClassRules::read(const std::filesystem::path& file) {
   }
 }
 
-ClassRules::Match ClassRules::match(const std::string& name,
-                                    std::optional<ThingClass> not_this) const {
+std::optional<ThingClass> ClassRules::match(const std::string& name,
+                                            std::optional<ThingClass> not_this) const {
   const std::string plain = lower_case(name);
   for (const Rule& rule : rules_)
-    if (rule.thing_class != not_this && fits(rule.pattern, plain))
-      return {rule.thing_class, rule.pattern};
-  return {};
+    if (rule.thing_class != not_this && fits(rule.pattern, plain)) return rule.thing_class;
+  return std::nullopt;
 }
 
 }  // namespace navvi_sim::read

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,6 @@ namespace navvi_sim::read {
 /// Tells what a model that others named is, by ordered patterns for its name.
 class ClassRules {
  public:
-  struct Match {
-    ThingClass thing_class = ThingClass::other;
-    std::string pattern;  ///< empty: no rule fits
-  };
-
   /// The rules of config/classes.yaml, built in.
   [[nodiscard]] static const ClassRules& standard();
 
@@ -25,9 +21,9 @@ class ClassRules {
   [[nodiscard]] static ClassRules read(const std::filesystem::path& file);
 
   /// The first rule with a pattern that fits the whole of `name`, whatever its case, other than
-  /// those for the class `not_this`.
-  [[nodiscard]] Match match(const std::string& name,
-                            std::optional<ThingClass> not_this = std::nullopt) const;
+  /// those for the class `not_this`, gives the class; nullopt: none fits.
+  [[nodiscard]] std::optional<ThingClass> match(
+      const std::string& name, std::optional<ThingClass> not_this = std::nullopt) const;
 
  private:
   friend class RuleReader;

@@ -4,11 +4,11 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <tinyxml2.h>
 
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -17,6 +17,7 @@
 #include "description/sentence.hpp"
 #include "description/validate.hpp"
 #include "read/collada_check.hpp"
+#include "read/xml_element.hpp"
 
 namespace navvi_sim::read {
 namespace {
@@ -104,24 +105,27 @@ void check_obj(const std::filesystem::path& file) {
   }
 }
 
-/// Collada without what assimp's reader trips over and Gazebo's own does not: comments, and blanks
-/// before the first word of an element.
+/// Prints Collada without what assimp's reader trips over and Gazebo's own does not: comments,
+/// document types, and, of a document that collapses them, blanks before the first word of an
+/// element.
+class PlainPrinter : public tinyxml2::XMLPrinter {
+ public:
+  PlainPrinter() : XMLPrinter(nullptr, true) {}
+  using XMLPrinter::Visit;
+  bool Visit(const tinyxml2::XMLComment&) override { return true; }
+  bool Visit(const tinyxml2::XMLUnknown&) override { return true; }
+};
+
+/// \throws WorldError for a text that assimp must not read
 std::string plain_collada(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)), {});
-  std::string plain;
-  plain.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    if (text.compare(at, 4, "<!--") == 0) {
-      const std::size_t end = text.find("-->", at + 4);
-      at = end == std::string::npos ? text.size() : end + 3;
-      continue;
-    }
-    const bool leads = !plain.empty() && plain.back() == '>';
-    if (!leads || std::strchr(" \t\r\n", text[at]) == nullptr) plain += text[at];
-    ++at;
-  }
-  return plain;
+  tinyxml2::XMLDocument document(true, tinyxml2::COLLAPSE_WHITESPACE);
+  parse_xml(file, std::string((std::istreambuf_iterator<char>(stream)), {}), document);
+  PlainPrinter plain;
+  document.Print(&plain);
+  std::string text = plain.CStr();
+  check_collada(file, *document.RootElement(), text.size());
+  return text;
 }
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -256,7 +260,6 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
   try {
     if (extension == ".dae") {
       const std::string plain = plain_collada(file);
-      check_collada(file, plain);
       scene = importer.ReadFileFromMemory(plain.data(), plain.size(), aiProcess_Triangulate, "dae");
     } else {
       scene = importer.ReadFile(file.string(), aiProcess_Triangulate);

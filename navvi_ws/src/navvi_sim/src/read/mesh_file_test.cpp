@@ -71,9 +71,10 @@ TEST_F(MeshFile, refuses_collada_nodes_that_instance_themselves) {
            {"", "<node name='n'>" + kPiece + "<instance_node url='#n'/></node>"},
            {"", "<node id='n'>" + kPiece + "<node><instance_node url='#n'/></node></node>"},
            {"", "<node id='n'>" + kPiece + "<instance_node url='#s'/></node>"},
+           {"", "<node id='n'>" + kPiece + "<instance_node url='#&#110;'/></node>"},
            {"", "<node id='n' name='a></node>'>" + kPiece + "<instance_node url='#n'/></node>"},
            {"", "<node id='n'>" + kPiece +
-                    "<x><![CDATA[</node>]]></x><?x </node>?>"
+                    "<x><![CDATA[</node>]]></x><!-- </node> -->"
                     "<instance_node url='#n'/></node>"},
            {"<library_nodes><node id='a'>" + kPiece +
                 "<instance_node url='#b'/></node>"
@@ -83,10 +84,6 @@ TEST_F(MeshFile, refuses_collada_nodes_that_instance_themselves) {
     EXPECT_NE(sentence.find("round.dae' has a node '"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("instances itself"), std::string::npos) << sentence;
   }
-  EXPECT_NE(refusal("hidden.dae",
-                    collada("", "<node id='n'>" + kPiece + "<instance_node url='#&#110;'/></node>"))
-                .find("entity"),
-            std::string::npos);
 }
 
 TEST_F(MeshFile, refuses_collada_that_unfolds_to_more_than_it_may) {
@@ -104,7 +101,7 @@ TEST_F(MeshFile, refuses_collada_that_unfolds_to_more_than_it_may) {
             std::string::npos);
   EXPECT_NE(
       refusal("deep.dae", collada("", repeated("<node>", 300) + kPiece + repeated("</node>", 300)))
-          .find("nested more than 200 deep"),
+          .find("nested too deep"),
       std::string::npos);
   std::string chain = "<library_nodes><node id='n0'>" + kPiece + "</node>";
   for (int i = 1; i <= 1000; ++i)
@@ -115,10 +112,9 @@ TEST_F(MeshFile, refuses_collada_that_unfolds_to_more_than_it_may) {
                 .find("nested more than 200 deep"),
             std::string::npos);
   EXPECT_NE(refusal("text.dae", collada(repeated("<a>", 200'000) + repeated("</a>", 200'000), ""))
-                .find("nested more than 1000 deep"),
+                .find("nested too deep"),
             std::string::npos);
-  EXPECT_NE(refusal("type.dae", "<!DOCTYPE x [<!ENTITY n 'n'>]>" + collada("", "<node/>"))
-                .find("document type"),
+  EXPECT_NE(refusal("tags.dae", collada(repeated("<a/>", 2'000'000), "")).find("tags"),
             std::string::npos);
 }
 

@@ -48,18 +48,6 @@ fs::path sdf_file_of(const fs::path& model) {
                    "' has neither model.config nor model.sdf; a model needs one");
 }
 
-/// Gazebo brings these two itself, so that worlds count on them.
-enum class Stock { none, sun, ground_plane };
-
-Stock stock_of(const std::string& uri) {
-  // Without a slash, npos + 1 is 0: the whole of it.
-  const std::string name = lower_case(uri.substr(uri.find_last_of('/') + 1));
-  if (name == "sun") return Stock::sun;
-  if (name == "ground_plane" || name == "ground plane" || name == "ground%20plane")
-    return Stock::ground_plane;
-  return Stock::none;
-}
-
 /// A level plane, built from the inside out.
 XmlElement stock_ground(const XmlElement& include) {
   XmlElement ground;
@@ -76,20 +64,8 @@ XmlElement stock_ground(const XmlElement& include) {
 void override_with(XmlElement& model, const XmlElement& include) {
   const std::string name = include.text_of("name");
   if (!name.empty()) model.attributes["name"] = name;
-  if (const XmlElement* pose = include.child("pose")) {
-    auto& children = model.children;
-    children.erase(std::remove_if(children.begin(), children.end(),
-                                  [](const XmlElement& child) { return child.name == "pose"; }),
-                   children.end());
-    children.push_back(*pose);
-  }
-  if (const XmlElement* fixed = include.child("static")) {
-    auto& children = model.children;
-    children.erase(std::remove_if(children.begin(), children.end(),
-                                  [](const XmlElement& child) { return child.name == "static"; }),
-                   children.end());
-    children.push_back(*fixed);
-  }
+  for (const char* own : {"pose", "static"})
+    if (const XmlElement* given = include.child(own)) model.replace(*given);
   const std::string placement = include.text_of("placement_frame");
   if (!placement.empty()) model.attributes["placement_frame"] = placement;
   for (const XmlElement* plugin : include.children_named("plugin"))
@@ -207,12 +183,14 @@ void SdfFiles::expand(XmlElement& element, SdfNotes& notes, std::vector<fs::path
 
 std::optional<XmlElement> SdfFiles::stand_in(const XmlElement& include, const std::string& uri,
                                              SdfNotes& notes) {
-  const Stock stock = stock_of(uri);
-  if (stock == Stock::none) refuse(include, "the model '" + uri + "' is " + looked_for(uri));
-  if (stock == Stock::sun) {
+  // Without a slash, npos + 1 is 0: the whole of it.
+  const std::string name = lower_case(uri.substr(uri.find_last_of('/') + 1));
+  if (name == "sun") {
     notes.add_harmless(include);
     return std::nullopt;
   }
+  if (name != "ground_plane" && name != "ground plane" && name != "ground%20plane")
+    refuse(include, "the model '" + uri + "' is " + looked_for(uri));
   XmlElement ground = stock_ground(include);
   override_with(ground, include);
   notes.add(include, "the model '" + uri + "' is not there; a level plane stands for it");

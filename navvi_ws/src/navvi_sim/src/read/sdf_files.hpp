@@ -39,7 +39,8 @@ class SdfFiles {
   void expand(XmlElement& element, SdfNotes& notes, std::vector<std::filesystem::path>& chain);
   [[nodiscard]] std::optional<XmlElement> included(const XmlElement& include, SdfNotes& notes,
                                                    std::vector<std::filesystem::path>& chain);
-  /// What Gazebo ships itself and a world may therefore include. nullopt: it means nothing here
+  /// The sun or the ground plane, which Gazebo ships itself, so that worlds count on them. nullopt:
+  /// it means nothing here
   [[nodiscard]] std::optional<XmlElement> stand_in(const XmlElement& include,
                                                    const std::string& uri, SdfNotes& notes);
   /// The file of a model that was found. \throws WorldError at `include` if it cannot be read

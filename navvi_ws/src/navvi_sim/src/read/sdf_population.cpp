@@ -1,6 +1,5 @@
 #include "read/sdf_population.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -107,13 +106,9 @@ std::vector<XmlElement> models_of(const XmlElement& population) {
   for (const Eigen::Vector3d& point : points_of(population)) {
     XmlElement one = model;
     one.attributes["name"] = model.attribute("name") + "_" + std::to_string(models.size());
-    auto& children = one.children;
-    children.erase(std::remove_if(children.begin(), children.end(),
-                                  [](const XmlElement& child) { return child.name == "pose"; }),
-                   children.end());
     XmlElement there = origin;
     there.text = text_of(middle * point, origin);
-    children.push_back(std::move(there));
+    one.replace(std::move(there));
     models.push_back(std::move(one));
   }
   return models;

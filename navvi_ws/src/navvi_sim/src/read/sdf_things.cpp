@@ -78,7 +78,6 @@ void SdfThings::add_planes() {
     Thing thing;
     thing.name = unique(names_.count(plane.name) ? plane.name + "_plane" : plane.name);
     thing.thing_class = ThingClass::floor;
-    loaded.rules[thing.name] = "a plane";
     thing.pose.translation() = Eigen::Vector3d(bounds.center().x(), bounds.center().y(),
                                                plane.height - kPlaneThickness / 2.0);
     thing.shapes.push_back(
@@ -192,7 +191,6 @@ void SdfThings::find_floor_of_buildings() {
         area >= kFloorExcess * level_area(thing, *height + kDrivenOver, bounds.max().z());
     if (area < kLeastFloor || !is_most || *height > bounds.min().z() + kFloorDepth) continue;
     thing.thing_class = ThingClass::floor;
-    loaded.rules[thing.name] = "a floor of its own";
     notes_.add(places_[i], "no thing is named a floor, and '" + thing.name +
                                "' has one of its own, which is taken");
   }
@@ -231,20 +229,19 @@ void SdfThings::judge_floors(double height) {
         top_of(thing) <= height + kDrivenOver ||
         level_area(thing, height - kDrivenOver, height + kDrivenOver) >= kLeastFloor)
       continue;
-    thing.thing_class = match->second.thing_class;
-    loaded.rules[thing.name] = match->second.pattern.empty() ? "no floor: it rises above the floor"
-                                                             : match->second.pattern;
+    thing.thing_class = match->second;
   }
 }
 
 std::vector<SdfThings::Lost> SdfThings::leave_out(
-    const std::function<bool(const Thing&)>& is_lost) {
+    const std::function<bool(const Thing&)>& is_lost, const std::string& why) {
   std::vector<Thing> kept;
   std::vector<std::string> kept_places;
   std::vector<Lost> lost;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     Thing& thing = loaded.world.things[i];
     if (is_lost(thing)) {
+      if (!why.empty()) notes_.add(places_[i], "'" + thing.name + "' is " + why);
       lost.push_back({std::move(thing.name), std::move(places_[i])});
       continue;
     }
@@ -263,9 +260,8 @@ void SdfThings::leave_out_what_is_under(double height, const std::filesystem::pa
   leave_out_spares(height);
   leave_out_what_is_in_slabs(height);
   const std::size_t all = places_.size();
-  const std::vector<Lost> lost = leave_out(is_under);
-  for (const Lost& one : lost)
-    notes_.add(one.place, "'" + one.name + "' is not taken over: all of it lies under the floor");
+  const std::vector<Lost> lost =
+      leave_out(is_under, "not taken over: all of it lies under the floor");
   if (lost.size() > kFewLost && lost.size() > all / 10)
     throw WorldError(file.string() + ": " + std::to_string(lost.size()) + " of " +
                      std::to_string(all) + " things lie under the floor at " +
@@ -281,14 +277,13 @@ void SdfThings::leave_out_what_is_in_slabs(double height) {
     if (!thing.route && std::abs(top_of(thing) - height) < kDrivenOver / 2.0 &&
         level_area(thing, height - kDrivenOver, height + kDrivenOver) >= kLeastFloor)
       slabs.push_back(bounds_of({thing}));
-  const std::vector<Lost> lost = leave_out([&](const Thing& thing) {
+  const auto is_in_one = [&](const Thing& thing) {
     const Eigen::AlignedBox3d bounds = bounds_of({thing});
     return thing.thing_class != ThingClass::floor && bounds.max().z() < height &&
            std::any_of(slabs.begin(), slabs.end(),
                        [&](const Eigen::AlignedBox3d& slab) { return slab.contains(bounds); });
-  });
-  for (const Lost& one : lost)
-    notes_.add(one.place, "'" + one.name + "' is not taken over: all of it lies within a slab");
+  };
+  leave_out(is_in_one, "not taken over: all of it lies within a slab");
 }
 
 /// Models that Gazebo parks far below the floor, for plugins to fetch, where some things stand on
@@ -304,7 +299,7 @@ void SdfThings::leave_out_spares(double height) {
       cellars.push_back(bounds);
   }
   if (!stands) return;
-  const std::vector<Lost> spares = leave_out([&](const Thing& thing) {
+  const auto is_spare = [&](const Thing& thing) {
     Eigen::AlignedBox3d bounds = bounds_of({thing});
     if (thing.thing_class == ThingClass::floor || bounds.max().z() >= height - kHeadroom)
       return false;
@@ -312,9 +307,8 @@ void SdfThings::leave_out_spares(double height) {
     return std::none_of(cellars.begin(), cellars.end(), [&](const Eigen::AlignedBox3d& cellar) {
       return bounds.intersects(cellar);
     });
-  });
-  for (const Lost& one : spares)
-    notes_.add(one.place, "'" + one.name + "' is parked far below the floor, and is left out");
+  };
+  leave_out(is_spare, "parked far below the floor, and is left out");
 }
 
 /// No robot gets there.

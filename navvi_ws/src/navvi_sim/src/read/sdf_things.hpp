@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "navvi_sim/read/loaded_world.hpp"
-#include "read/class_rules.hpp"
 #include "read/sdf_notes.hpp"
 
 namespace navvi_sim::read {
@@ -36,9 +35,9 @@ class SdfThings {
   void add_plane(const std::string& name, double height, const std::string& place);
   [[nodiscard]] std::size_t planes() const { return planes_.size(); }
 
-  /// \param match  what the rules call the thing, named a floor, should it turn out to be none
-  void set_class_if_no_floor(const std::string& thing, ClassRules::Match match) {
-    if_no_floor_[thing] = std::move(match);
+  /// \param what  the rules call the thing, named a floor, should it turn out to be none
+  void set_class_if_no_floor(const std::string& thing, ThingClass what) {
+    if_no_floor_[thing] = what;
   }
 
   /// Adds the planes, finds the floor's height, gives another class to what a rule calls a floor
@@ -69,8 +68,9 @@ class SdfThings {
   void find_floor_of_buildings();
   void judge_floors(double height);
   void judge_terrain(double height, const std::filesystem::path& file);
-  /// Takes some things out.
-  std::vector<Lost> leave_out(const std::function<bool(const Thing&)>& is_lost);
+  /// Takes some things out. \param why  of a note on each; empty: none is made
+  std::vector<Lost> leave_out(const std::function<bool(const Thing&)>& is_lost,
+                              const std::string& why = "");
   void leave_out_what_is_under(double height, const std::filesystem::path& file);
   void leave_out_spares(double height);
   void leave_out_what_is_in_slabs(double height);
@@ -84,8 +84,8 @@ class SdfThings {
   std::set<std::string> names_;
   std::set<std::string> loose_;  ///< things
   std::vector<Plane> planes_;
-  std::map<std::string, ClassRules::Match> if_no_floor_;  ///< by thing
-  std::vector<std::size_t> on_floor_;                     ///< things
+  std::map<std::string, ThingClass> if_no_floor_;  ///< by thing
+  std::vector<std::size_t> on_floor_;              ///< things
 };
 
 }  // namespace navvi_sim::read

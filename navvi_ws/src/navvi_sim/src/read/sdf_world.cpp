@@ -232,26 +232,27 @@ class WorldReader {
   void classify(const XmlElement& model, Thing& thing) {
     if (const auto own = own_class(model, "class")) {
       thing.thing_class = *own;
-      things_.loaded.rules[thing.name] = "navvi:class";
       return;
     }
-    const ClassRules::Match match = match_names(model, thing.name, std::nullopt);
-    if (match.pattern.empty()) return;
-    thing.thing_class = match.thing_class;
-    things_.loaded.rules[thing.name] = match.pattern;
-    if (match.thing_class == ThingClass::floor)
-      things_.set_class_if_no_floor(thing.name, match_names(model, thing.name, ThingClass::floor));
+    const auto match = match_names(model, thing.name, std::nullopt);
+    if (!match) return;
+    thing.thing_class = *match;
+    if (match == ThingClass::floor)
+      things_.set_class_if_no_floor(
+          thing.name,
+          match_names(model, thing.name, ThingClass::floor).value_or(ThingClass::other));
   }
 
   /// The first rule that fits the thing, or else a model or link in it.
-  [[nodiscard]] ClassRules::Match match_names(const XmlElement& model, const std::string& thing,
-                                              std::optional<ThingClass> not_this) const {
+  [[nodiscard]] std::optional<ThingClass> match_names(const XmlElement& model,
+                                                      const std::string& thing,
+                                                      std::optional<ThingClass> not_this) const {
     std::vector<std::string> names{thing};
     for (const char* kind : {"model", "link"})
       for (const XmlElement* inner : model.children_named(kind)) names.push_back(name_of(*inner));
     for (const std::string& name : names)
-      if (auto match = rules_.match(name, not_this); !match.pattern.empty()) return match;
-    return {};
+      if (const auto match = rules_.match(name, not_this)) return match;
+    return std::nullopt;
   }
 
   // -- Links

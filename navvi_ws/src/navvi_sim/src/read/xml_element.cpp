@@ -101,6 +101,7 @@ class Repair {
 
  private:
   static constexpr std::size_t kMostAttributes = 1'000;  // tinyxml2 looks through all for each
+  static constexpr std::size_t kMostTags = 2'000'000;    // and takes some 100 bytes for each
 
   [[nodiscard]] bool begins(const char* word) const {
     return content_.compare(at_, std::char_traits<char>::length(word), word) == 0;
@@ -122,6 +123,9 @@ class Repair {
   /// From '<' to '>'.
   void copy_tag() {
     const bool closes = begins("</");
+    if (++tags_ == kMostTags)
+      excess_ = line() + ": there are " + std::to_string(kMostTags) +
+                " tags or more; allowed are fewer";
     std::size_t attributes = 0;
     while (at_ < content_.size() && content_[at_] != '>') {
       const std::size_t next = content_.find_first_of("=>", at_);
@@ -169,6 +173,7 @@ class Repair {
   std::string fixed_;
   std::vector<std::string> repairs_;
   std::string excess_;
+  std::size_t tags_ = 0;
   std::size_t counted_ = 0, line_ = 1;  ///< up to where, and the line there
   int depth_ = 0;
   bool ended_ = false;  ///< the root is closed
@@ -221,15 +226,21 @@ std::string XmlElement::attribute(const std::string& key) const {
   return found == attributes.end() ? "" : found->second;
 }
 
+void XmlElement::replace(XmlElement by) {
+  children.erase(std::remove_if(children.begin(), children.end(),
+                                [&](const XmlElement& one) { return one.name == by.name; }),
+                 children.end());
+  children.push_back(std::move(by));
+}
+
 std::string XmlElement::place() const { return *file + ", line " + std::to_string(line); }
 
-XmlElement read_xml(const std::filesystem::path& file) {
-  std::string content = content_of(file);
+std::vector<std::string> parse_xml(const std::filesystem::path& file, std::string content,
+                                   tinyxml2::XMLDocument& document) {
   blank_late_declaration(content);
   Repair repair(content);
   repair.run();
   if (!repair.excess().empty()) throw WorldError(file.string() + ", " + repair.excess());
-  tinyxml2::XMLDocument document;
   document.Parse(repair.fixed().data(), repair.fixed().size());
   if (document.Error() || document.RootElement() == nullptr)
     throw WorldError(
@@ -240,9 +251,15 @@ XmlElement read_xml(const std::filesystem::path& file) {
         (content.find("<%") != std::string::npos ? "; it looks like a template of ERB: "
                                                    "run erb first"
                                                  : "; allowed is one whole document"));
+  return repair.repairs();
+}
+
+XmlElement read_xml(const std::filesystem::path& file) {
+  tinyxml2::XMLDocument document;
+  std::vector<std::string> repairs = parse_xml(file, content_of(file), document);
   XmlElement root =
       copy_of(*document.RootElement(), std::make_shared<const std::string>(file.string()));
-  root.repairs = repair.repairs();
+  root.repairs = std::move(repairs);
   return root;
 }
 

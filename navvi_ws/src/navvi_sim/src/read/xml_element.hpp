@@ -9,6 +9,10 @@
 
 #include "navvi_sim/description/world_description.hpp"
 
+namespace tinyxml2 {
+class XMLDocument;
+}
+
 namespace navvi_sim::read {
 
 constexpr std::uintmax_t kMaxXmlBytes = 20'000'000;  ///< of a file that is read
@@ -30,6 +34,8 @@ struct XmlElement {
   [[nodiscard]] std::string text_of(const std::string& child_name) const;
   /// Empty if there is none.
   [[nodiscard]] std::string attribute(const std::string& key) const;
+  /// Takes the children of that name away, and puts this one in their place.
+  void replace(XmlElement by);
   /// "a.world, line 12", for sentences.
   [[nodiscard]] std::string place() const;
 };
@@ -38,6 +44,10 @@ struct XmlElement {
 /// \throws WorldError for a file that is missing, larger than 20 MB, or no XML, with the fault and
 /// its line
 [[nodiscard]] XmlElement read_xml(const std::filesystem::path& file);
+
+/// The same of the content of a file. \return what was read though it is no XML
+std::vector<std::string> parse_xml(const std::filesystem::path& file, std::string content,
+                                   tinyxml2::XMLDocument& document);
 
 /// Wrong is one place of a file, and what may be left out for it is what stands there.
 class PlaceError : public WorldError {

@@ -1,5 +1,6 @@
 #include "navvi_sim/setup/sim_node_config.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -7,7 +8,6 @@
 #include <limits>
 #include <navvi_config/reader.hpp>
 #include <navvi_config/writer.hpp>
-#include <sstream>
 #include <vector>
 
 namespace navvi_sim::setup {
@@ -16,22 +16,15 @@ namespace {
 /// The numbers of a list such as "1,-9,1.57".
 std::vector<double> numbers(const std::string& list, std::size_t count, const std::string& key,
                             const std::string& form) {
-  const navvi_config::ConfigError error(key + ": \"" + list + "\" is not of the form " + form +
-                                        " with finite numbers");
-  std::vector<double> values;
-  std::stringstream stream(list);
-  for (std::string item; std::getline(stream, item, ',');) {
-    std::size_t used = 0;
-    try {
-      values.push_back(std::stod(item, &used));
-    } catch (const std::exception&) {
-      throw error;
-    }
-    if (item.find_first_not_of(" \t", used) != std::string::npos || !std::isfinite(values.back()))
-      throw error;
+  try {
+    const auto values = YAML::Load("[" + list + "]").as<std::vector<double>>();
+    const bool finite = std::all_of(values.begin(), values.end(),
+                                    [](double value) { return std::isfinite(value); });
+    if (values.size() == count && finite && list.back() != ',') return values;
+  } catch (const YAML::Exception&) {
   }
-  if (values.size() != count || list.back() == ',') throw error;
-  return values;
+  throw navvi_config::ConfigError(key + ": \"" + list + "\" is not of the form " + form +
+                                  " with finite numbers");
 }
 
 /// The shortest texts that are read back as the same numbers.

@@ -6,6 +6,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/subscribe.hpp>
 #include <set>
@@ -106,11 +107,6 @@ std::string name_of_recorder() {
   return name;
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() &&
-         text.compare(text.size() - end.size(), std::string::npos, end) == 0;
-}
-
 /// Runs trials (TrialKeeper) on what the topics say. Everything happens in the thread that spins.
 class TrialNode {
  public:
@@ -121,7 +117,8 @@ class TrialNode {
         keeper_(named(config), outlets(), now()) {
     events_ = node_.advertise<navvi_msgs::TrialEvent>(
         "navvi/events", kQueue, [this](const ros::SingleSubscriberPublisher& link) {
-          if (ends_with(link.getSubscriberName(), recorder_name_)) keeper_.recorder_listens(now());
+          if (boost::algorithm::ends_with(link.getSubscriberName(), recorder_name_))
+            keeper_.recorder_listens(now());
         });
     goals_ = node_.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     state_ = node_.advertise<navvi_msgs::TrialState>("navvi/trial_state", 1, true);

@@ -1,6 +1,7 @@
 #include "record/told.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <map>
 #include <navvi_types/angles.hpp>
@@ -27,10 +28,6 @@ bool is_spoken(const Row& row) { return row.fields.get("modality") == "speech"; 
 
 std::optional<Content> told_in(const Row& row) {
   return navvi_types::from_word<Content>(row.fields.get("kind"));
-}
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.npos, end) == 0;
 }
 
 /// Takes sentences one after the other.
@@ -70,7 +67,8 @@ class Ear {
   }
   void judge_ahead(const std::string& text, const std::optional<Content>& told, double time) {
     const bool straight = text.find("straight") != std::string::npos;
-    const bool ahead = !straight && ends_with(text, " ahead") && told != CueKind::start;
+    const bool ahead = !straight && told != CueKind::start &&
+                       boost::algorithm::ends_with(text, " ahead");
     if ((straight && just_now(ahead_, time, kObey)) || (ahead && just_now(straight_, time, kObey)))
       ++speech_.at_odds;
     if (straight) straight_ = time;

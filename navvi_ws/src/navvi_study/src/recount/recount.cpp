@@ -4,6 +4,7 @@
 #include <rosbag/view.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <stdexcept>
 
 #include "node/msg_conversion.hpp"
@@ -12,10 +13,6 @@
 
 namespace navvi_study::recount {
 namespace {
-
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.npos, end) == 0;
-}
 
 std::uint64_t count_in(const record::Row& row, const std::string& name) {
   return static_cast<std::uint64_t>(row.fields.number(name).value_or(0.0));
@@ -136,7 +133,7 @@ class Recount {
   /// Calls `take` with the message if it is a `Message` on `topic`.
   template <typename Message, typename Take>
   static void with(const rosbag::MessageInstance& item, const char* topic, const Take& take) {
-    if (!ends_with(item.getTopic(), topic)) return;
+    if (!boost::algorithm::ends_with(item.getTopic(), topic)) return;
     if (const auto msg = message_of<Message>(item)) take(*msg);
   }
 

@@ -1,7 +1,6 @@
 // check_trial TRIAL_FOLDER: steps the recorded world with the recorded commands and compares its
 // state each second. Exit 0: equal. 1: differs. 2: cannot be compared.
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <navvi_files/files.hpp>

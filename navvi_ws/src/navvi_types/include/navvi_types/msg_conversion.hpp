@@ -79,6 +79,9 @@ namespace navvi_types {
 [[nodiscard]] navvi_msgs::TrialState to_msg(const TrialState& state);
 [[nodiscard]] navvi_msgs::TrialRequest to_msg(const TrialRequest& request);
 
+/// Places in the message's frame. \param z  m
+[[nodiscard]] geometry_msgs::Point point_msg(const Eigen::Vector2d& point, double z);
+[[nodiscard]] geometry_msgs::Pose pose_msg(const Pose2& pose, double z);
 /// A path whose poses look along it; the last one as the one before it. \param floor  m, z
 [[nodiscard]] nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,
                                       std::int64_t stamp, const std::string& frame = "map");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <any>
 #include <memory>
 #include <navvi_config/field.hpp>
 #include <navvi_files/cache.hpp>
@@ -16,9 +17,6 @@ namespace navvi_nav::lockstep {
 class NavigationConfig {
  public:
   NavigationConfig();
-  NavigationConfig(const NavigationConfig& other);
-  NavigationConfig& operator=(const NavigationConfig& other);
-  ~NavigationConfig();
 
   void describe(navvi_config::Visitor& visit);
   /// m, with its load: what begins higher over the floor does not matter
@@ -26,8 +24,7 @@ class NavigationConfig {
 
  private:
   friend class Navigation;
-  struct Values;
-  std::unique_ptr<Values> values_;
+  std::any values_;  ///< guide::NavigatorConfig
 };
 
 /// The core of nav_node without threads and without a clock: a plan is there at the next beat,

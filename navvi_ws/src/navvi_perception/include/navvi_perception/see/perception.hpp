@@ -1,5 +1,6 @@
 #pragma once
 
+#include <any>
 #include <cstdint>
 #include <memory>
 #include <navvi_config/field.hpp>
@@ -16,9 +17,6 @@ namespace navvi_perception::see {
 class PerceptionConfig {
  public:
   PerceptionConfig();
-  PerceptionConfig(const PerceptionConfig& other);
-  PerceptionConfig& operator=(const PerceptionConfig& other);
-  ~PerceptionConfig();
 
   void describe(navvi_config::Visitor& visit);
   [[nodiscard]] double resolution() const;    ///< m, of the map
@@ -32,8 +30,7 @@ class PerceptionConfig {
 
  private:
   friend class Perception;
-  struct Values;
-  std::unique_ptr<Values> values_;
+  std::any values_;
 };
 
 /// What a robot's own sensors tell of what stands and what moves around it. What it cannot know it

@@ -7,27 +7,16 @@
 
 namespace navvi_sim::physics {
 
-/// What a real robot does not do exactly. All of it is off by default, and drawn from the world's
-/// seed (drivetrain.hpp).
+/// What a real robot's odometry does not count exactly. All of it is off by default, and drawn from
+/// the world's seed (wheel_odometry.hpp).
 struct ImperfectionsConfig {
-  double wheel_base = 0.5;      ///< m, between the two wheels
-  double slip_left = 0.0;       ///< share of its turning that the left wheel loses on the floor
-  double slip_right = 0.0;      ///< likewise
-  double slip_noise = 0.0;      ///< standard deviation of what comes on top, each wheel by itself
-  double slip_time = 0.5;       ///< s, in which that comes and goes
-  double command_delay = 0.0;   ///< s, from a command to the wheels
   double odometry_left = 0.0;   ///< share by which the left wheel's way is counted too long: as if
                                 ///< its diameter were wrong (Borenstein and Feng, 1996)
-  double odometry_right = 0.0;  ///< likewise
   double odometry_noise = 0.0;  ///< m per root of a metre, standard deviation of each wheel's
                                 ///< counted way (Chong and Kleeman, 1997)
 
-  [[nodiscard]] bool slips() const {
-    return slip_left != 0.0 || slip_right != 0.0 || slip_noise != 0.0;
-  }
-  /// Odometry counts the wheels, so a slip is a drift as well.
   [[nodiscard]] bool odometry_drifts() const {
-    return slips() || odometry_left != 0.0 || odometry_right != 0.0 || odometry_noise != 0.0;
+    return odometry_left != 0.0 || odometry_noise != 0.0;
   }
 
   void describe(navvi_config::Visitor& visit);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,6 @@ namespace navvi_sim::read {
 struct LoadedWorld {
   WorldDescription world;
   std::vector<std::string> notes;
-  std::map<std::string, std::string> rules = {};  ///< by thing: the pattern that gave its class
 };
 
 /// What the workers of a layout do (R-SIM-2).

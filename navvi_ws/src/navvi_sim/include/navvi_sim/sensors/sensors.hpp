@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <navvi_config/field.hpp>
-#include <optional>
+#include <navvi_types/random.hpp>
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
@@ -59,19 +59,24 @@ class Sensor {
  public:
   Sensor(const LidarConfig& config, std::uint64_t seed);
   Sensor(const CameraConfig& config, std::uint64_t seed);
-  ~Sensor();
-  Sensor(Sensor&& other) noexcept;
 
-  [[nodiscard]] double rate() const;
-  [[nodiscard]] double nearest() const;                            ///< m
-  [[nodiscard]] double farthest() const;                           ///< m
-  [[nodiscard]] const Eigen::Isometry3d& mount() const;            ///< in base_link
-  [[nodiscard]] const std::vector<Eigen::Vector3d>& rays() const;  ///< unit vectors, own frame
+  [[nodiscard]] double rate() const { return rate_; }
+  [[nodiscard]] double nearest() const { return nearest_; }                ///< m
+  [[nodiscard]] double farthest() const { return farthest_; }              ///< m
+  [[nodiscard]] const Eigen::Isometry3d& mount() const { return mount_; }  ///< in base_link
+  /// Unit vectors, own frame.
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& rays() const { return rays_; }
 
  private:
   friend class Sensors;
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  [[nodiscard]] double normal();
+
+  double rate_, nearest_, farthest_;
+  double noise_, growth_;  ///< m, and m for each m of range squared
+  double dropouts_;
+  Eigen::Isometry3d mount_;
+  navvi_types::Random random_;
+  std::vector<Eigen::Vector3d> rays_;
 };
 
 /// The sensors of a simulated robot: what their rays meet of the world, its movers and its floor.
