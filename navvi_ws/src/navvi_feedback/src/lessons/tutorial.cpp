@@ -215,7 +215,7 @@ void Tutorial::act(const Observation& seen, double dt, Taught& taught) {
   moved_.observe(seen, dt, time_);
   const Verdict verdict = !seen.contacts.empty() && !to_goal
                               ? Verdict{false, "hit"}
-                              : exercise_->judge({seen, moved_, time_, teller_, taught});
+                              : exercise_({seen, moved_, time_, teller_, taught});
   const bool idle = !in_trial_ && std::abs(moved_.driven) < 0.05 && std::abs(moved_.turned) < 0.05;
   if (verdict.passed) {
     teller_.then(key("good"));
