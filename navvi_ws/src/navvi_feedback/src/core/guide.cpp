@@ -72,7 +72,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
                 decided.end());
   out.answers =
       std::any_of(decided.begin(), decided.end(), [](const cues::Cue& cue) { return cue.asked; });
-  const sounds::Soundscape::Steering led = steering(now, dt);
+  const AuditoryDisplay::Steering led = steering(now, dt);
   for (const sounds::Play& play : sounds.update(decided, now, led, teacher.taught(), time))
     out.plays.push_back(play);
   auto course = pilot.update(lasts(now.lead) && !teacher.speaks() ? led.off : std::nullopt,
