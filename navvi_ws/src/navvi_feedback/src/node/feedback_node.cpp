@@ -20,7 +20,6 @@
 #include "node/outlets.hpp"
 #include "node/person_devices.hpp"
 #include "node/settings.hpp"
-#include "node/wall_time.hpp"
 
 namespace navvi_feedback::node {
 
