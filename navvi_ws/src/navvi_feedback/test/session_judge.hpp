@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "beat.hpp"
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::core {
 

@@ -12,7 +12,6 @@
 #include "core/side_question.hpp"
 #include "cues/cue_policy.hpp"
 #include "cues/cue_queue.hpp"
-#include "cues/heard_words.hpp"
 #include "drive/braking.hpp"
 #include "haptics/rumble_output.hpp"
 #include "lead/course.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cues/side.hpp"
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::core {
 namespace {
