@@ -14,7 +14,6 @@
 #include "navvi_feedback/core/guide.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"
-#include "node/heartbeat_notice.hpp"
 #include "node/inlets.hpp"
 #include "node/node_config.hpp"
 #include "node/outlets.hpp"
