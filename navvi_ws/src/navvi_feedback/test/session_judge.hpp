@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <navvi_types/names.hpp>
-#include <navvi_types/voice_model.hpp>
+#include <navvi_types/spoken.hpp>
 #include <set>
 #include <string>
 #include <utility>

@@ -5,7 +5,6 @@
 #include <ros/ros.h>
 
 #include <csignal>
-#include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 
 #include "cues/phrases.hpp"

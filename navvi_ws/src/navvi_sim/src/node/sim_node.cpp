@@ -6,7 +6,6 @@
 
 #include <csignal>
 #include <map>
-#include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
 #include <navvi_safety/link_outlet.hpp>
