@@ -257,7 +257,7 @@ void CaptionsDisplay::tell_rate() {
 
 const CaptionsDisplay::Mover* CaptionsDisplay::threat(const status::Shown& shown,
                                                       const navvi_types::Pose2& robot) const {
-  const auto& guidance = reader_->guidance();
+  const auto& guidance = reader_->status().guidance();
   Eigen::Vector2d place = robot.position;
   if (guidance && guidance->state == navvi_types::Guidance::State::blocked)
     if (const auto way = screen::way_ahead(path_, place, guidance->blocked_distance))
@@ -281,7 +281,7 @@ void CaptionsDisplay::show_threat(const Mover& threat, const Eigen::Vector2d& pi
   const auto edge = screen::edge_arrow(middle.in_camera, middle.pixel, picture, 2.0 * height_);
   if (edge) show_edge_arrow("threat", *edge, Chosen::shared().vision().text, picture, taken);
   const std::string name =
-      reader_->words().of(std::string("words/") + to_string(threat.thing_class));
+      reader_->status().words().of(std::string("words/") + to_string(threat.thing_class));
   words("who", name, height_, true);
   const screen::Rect place = seen(threat.place);
   show_beside("who",
@@ -425,7 +425,7 @@ bool CaptionsDisplay::from_above() const {
 
 void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
                                       const Eigen::Vector2d& picture, screen::Taken& taken) {
-  const auto& guidance = reader_->guidance();
+  const auto& guidance = reader_->status().guidance();
   if (guidance && guidance->leads() && goal_ != guidance->goal) {
     goal_ = guidance->goal;
     start_ = robot.position;
