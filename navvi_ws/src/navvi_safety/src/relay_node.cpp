@@ -7,7 +7,6 @@
 
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
-#include <navvi_safety/link_outlet.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace {

@@ -8,7 +8,6 @@
 #include <map>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
-#include <navvi_safety/link_outlet.hpp>
 
 #include "live/pacer.hpp"
 #include "navvi_sim/live/session.hpp"
