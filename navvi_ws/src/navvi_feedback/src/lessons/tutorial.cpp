@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <navvi_types/angles.hpp>
 
 namespace navvi_feedback::lessons {
 namespace {

@@ -7,7 +7,6 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
-#include <utility>
 
 namespace navvi_rviz::plugin {
 
