@@ -70,8 +70,6 @@ class Listener {
   void add(CueKind kind, const std::string& phrase);
   [[nodiscard]] bool parse(CueKind kind, std::string_view text,
                            std::vector<Instruction>& heard) const;
-  [[nodiscard]] bool parse(const Phrase& phrase, std::string_view text,
-                           std::vector<Instruction>& heard) const;
   [[nodiscard]] bool match(const Phrase& phrase, std::size_t piece, std::string_view text,
                            Instruction told, std::vector<Instruction>& heard) const;
   [[nodiscard]] bool follow_up(std::string_view rest, std::vector<Instruction>& heard) const;
