@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <fstream>
 
 namespace navvi_config {
 namespace {
@@ -50,6 +51,13 @@ void allow_files() {
   if (limit.rlim_max >= kFiles && ::setrlimit(RLIMIT_NOFILE, &limit) == 0) return;
   throw ConfigError("Only " + std::to_string(allowed) + " files may be open at once; allowed is " +
                     std::to_string(kFiles) + " or more, such as by \"ulimit -n 1024\".");
+}
+
+void ask_for_priority(int niceness) {
+  if (::setpriority(PRIO_PROCESS, 0, niceness) != 0) return;
+  // Where the kernel shares the processor among sessions, a niceness counts inside of one only;
+  // roslaunch gives each node a session of its own, and this is that session's.
+  std::ofstream("/proc/self/autogroup") << niceness;
 }
 
 void on_shutdown_request(const std::function<void()>& end) {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <map>
 #include <navvi_types/names.hpp>
-#include <navvi_types/voice_model.hpp>
+#include <navvi_types/spoken.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "beat.hpp"
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::core {
 

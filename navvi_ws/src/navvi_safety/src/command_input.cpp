@@ -61,4 +61,15 @@ ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic, CommandG
                                                ros::TransportHints().tcpNoDelay());
 }
 
+LinkOutlet::LinkOutlet(ros::NodeHandle& node)
+    : link_(node.advertise<navvi_msgs::LinkState>("navvi/link", 1)) {}
+
+void LinkOutlet::publish(const CommandGate& gate, double wall, std::int64_t stamp) {
+  constexpr double kPeriod = 0.5;  // s
+  if (wall - last_ < kPeriod && gate.late() == late_) return;
+  last_ = wall;
+  late_ = gate.late();
+  link_.publish(navvi_types::to_msg(gate.link_state(stamp)));
+}
+
 }  // namespace navvi_safety

@@ -7,8 +7,6 @@
 
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
-#include <navvi_safety/link_outlet.hpp>
-#include <navvi_safety/now.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace {
@@ -25,6 +23,10 @@ struct NodeConfig {
   }
 };
 
+navvi_safety::Instant instant() {
+  return {ros::SteadyTime::now().toSec(), ros::Time::now().toSec()};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,14 +40,14 @@ int main(int argc, char** argv) {
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
     using Command = ros::MessageEvent<const geometry_msgs::TwistStamped>;
     const boost::function<void(const Command&)> receive = [&](const Command& command) {
-      input.receive(command, navvi_safety::now());
+      input.receive(command, instant());
     };
     ros::Subscriber commands = node.subscribe<geometry_msgs::TwistStamped, const Command&>(
         "navvi/command", navvi_safety::kCommandQueue, receive, {},
         navvi_safety::command_transport());
     ros::Subscriber near;
     if (config.gate.assistance != "off")
-      near = navvi_safety::see_by(node, "navvi/proximity", gate, navvi_safety::now);
+      near = navvi_safety::see_by(node, "navvi/proximity", gate, instant);
     std::optional<navvi_types::DriveState> published;
     const auto publish_state = [&] {
       const auto now = gate.drive_state(navvi_types::to_ns(ros::Time::now()));
@@ -63,12 +65,12 @@ int main(int argc, char** argv) {
     bool pressed = false;
     const auto step = [&] {
       if (pressed) gate.stop(navvi_safety::CommandGate::Reason::emergency_stop);
-      wheels.publish(navvi_types::to_msg(gate.update(navvi_safety::now())));
+      wheels.publish(navvi_types::to_msg(gate.update(instant())));
       publish_state();
       rosgraph_msgs::Clock now;
       now.clock = ros::Time::now();
       clock.publish(now);
-      link.publish(gate, navvi_safety::now().wall, navvi_types::to_ns(ros::Time::now()));
+      link.publish(gate, instant().wall, navvi_types::to_ns(ros::Time::now()));
     };
     // By wall clock, so that a stopped simulation clock cannot keep the wheels turning.
     ros::WallTimer timer = node.createWallTimer(ros::WallDuration(0.02), [&](auto&) { step(); });

@@ -8,7 +8,6 @@
 #include <std_msgs/Bool.h>
 #include <xmlrpcpp/XmlRpc.h>
 
-#include <cmath>
 #include <csignal>
 #include <functional>
 #include <limits>

@@ -30,6 +30,12 @@ template <typename Config>
 /// hangs without a word
 void allow_files();
 
+/// Asks the system to run this program before others, so that a busy machine delays neither motors
+/// nor words. Call it before the program has threads; they inherit it. The kernel grants it to
+/// root, or by a limit (/etc/security/limits.d: "@audio - nice -10").
+/// \param niceness  [-20, -1], of which -20 goes first
+void ask_for_priority(int niceness);
+
 /// Calls `end`, in a thread of ROS, once a master or a person asks this node by XML-RPC to end.
 /// Where the reason is a second node of its name, that is logged as a fatal error, and
 /// name_is_taken() from then on.

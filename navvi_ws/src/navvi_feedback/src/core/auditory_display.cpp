@@ -1,16 +1,45 @@
 #include "core/auditory_display.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::core {
 
 using sounds::Earcon;
 
+namespace {
+
+/// s, between two pulses of what is at hand, and of what is `kFar` off (m) or more.
+constexpr double kFast = 0.13;
+constexpr double kSlow = 1.1;
+constexpr double kFar = 10.0;
+
+bool due(std::optional<double>& last, double distance, double time) {
+  const double share = std::clamp(distance / kFar, 0.0, 1.0);
+  if (last && time - *last < kFast + (kSlow - kFast) * share) return false;
+  last = time;
+  return true;
+}
+
+/// m, in base_link: where to go next.
+std::optional<Eigen::Vector2d> waypoint(const Observation& now,
+                                        const AuditoryDisplay::Steering& lead) {
+  if (!lead.off || !now.guidance || now.guidance->waypoint_distance <= 0.0) return std::nullopt;
+  const double angle = now.guidance->waypoint_angle + now.turned;
+  return now.guidance->waypoint_distance * Eigen::Vector2d(std::cos(angle), -std::sin(angle));
+}
+
+}  // namespace
+
 void AuditoryDisplay::use(const sounds::SoundsConfig& config) {
   config_ = config;
-  soundscape_.use(config);
+  turn_.use(config.turn);
+}
+
+std::optional<sounds::Learnt> AuditoryDisplay::learnt() const {
+  return config_.enabled ? std::optional(turn_.learnt()) : std::nullopt;
 }
 
 sounds::Play AuditoryDisplay::sample(Earcon earcon) const {
@@ -18,8 +47,7 @@ sounds::Play AuditoryDisplay::sample(Earcon earcon) const {
 }
 
 std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
-                                                  const Observation& now,
-                                                  const sounds::Soundscape::Steering& lead,
+                                                  const Observation& now, const Steering& lead,
                                                   const lessons::Taught& taught, double time) {
   std::vector<sounds::Play> plays;
   for (cues::Cue& cue : cues)
@@ -44,8 +72,7 @@ std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
                             [](const cues::Cue& cue) { return cue.sound.has_value(); }),
              cues.end());
   plays.insert(plays.end(), taught.plays.begin(), taught.plays.end());
-  const std::vector<sounds::Play> recurring = soundscape_.update(now, lead, time);
-  plays.insert(plays.end(), recurring.begin(), recurring.end());
+  add_recurring(now, lead, time, plays);
   // Words win, and yet a turn is counted down. What was hit is as loud as ever.
   for (sounds::Play& play : plays) {
     if (!now.voice_busy || &config_.family_of(play.earcon) == &config_.hit) continue;
@@ -53,6 +80,20 @@ std::vector<sounds::Play> AuditoryDisplay::update(std::vector<cues::Cue>& cues,
     play.volume *= config_.kUnderWords;
   }
   return plays;
+}
+
+void AuditoryDisplay::add_recurring(const Observation& now, const Steering& lead, double time,
+                                    std::vector<sounds::Play>& plays) {
+  const auto turn = turn_.update(now.lead == Lead::ticks ? lead.off : std::nullopt, lead.fine,
+                                 lead.motion, time);
+  if (turn) plays.push_back(*turn);
+  const bool lasts = now.lead == Lead::flow && lead.off;
+  if (const auto tick = notice_.update(now, lasts, config_.turn.volume, time))
+    plays.push_back(*tick);
+  const auto next = waypoint(now, lead);
+  if (config_.beacon.on && next && next->norm() > config_.kCaptureRadius &&
+      due(beacon_, next->norm(), time))
+    plays.push_back({Earcon::beacon, *next, config_.beacon.volume});
 }
 
 }  // namespace navvi_feedback::core

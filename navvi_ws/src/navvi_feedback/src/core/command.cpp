@@ -50,7 +50,7 @@ void Guide::Parts::limit(Velocity& command, const Observation& now) const {
   }
   command.linear *= share;
   const double turning = std::abs(command.angular);
-  const double most = sounds.most_rate().value_or(turning);
+  const double most = sounds.turn().most_rate().value_or(turning);
   if (turning > most) command.angular *= most / turning;
 }
 

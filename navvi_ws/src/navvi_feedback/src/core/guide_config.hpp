@@ -6,7 +6,7 @@
 #include "drive/buttons.hpp"
 #include "drive/drive.hpp"
 #include "haptics/haptics.hpp"
-#include "link/link_config.hpp"
+#include "link/delay_line.hpp"
 #include "navvi_feedback/core/guide.hpp"
 #include "sounds/sounds_config.hpp"
 

@@ -12,7 +12,6 @@
 #include "core/side_question.hpp"
 #include "cues/cue_policy.hpp"
 #include "cues/cue_queue.hpp"
-#include "cues/heard_words.hpp"
 #include "drive/braking.hpp"
 #include "haptics/rumble_output.hpp"
 #include "lead/course.hpp"
@@ -52,7 +51,7 @@ struct Guide::Parts {
   /// \param at  m, in map; nullopt: it is not known \return what is told of it
   cues::Utterance remember(const std::optional<Eigen::Vector2d>& at, Output& out);
   /// To where the person is led now.
-  [[nodiscard]] sounds::Soundscape::Steering steering(const Observation& now, double dt);
+  [[nodiscard]] AuditoryDisplay::Steering steering(const Observation& now, double dt);
   [[nodiscard]] std::optional<double> off_course(const Observation& now) const;
   /// \param pattern  that the rumble is part of
   void move_motors(std::optional<haptics::Pattern> pattern, const Devices& devices, double time,

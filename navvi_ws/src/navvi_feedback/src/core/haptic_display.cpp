@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "cues/side.hpp"
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::core {
 namespace {
@@ -24,16 +24,10 @@ bool is_hit(haptics::Pattern pattern) {
 }
 
 haptics::Zone zone_of(const Contact& contact) {
-  switch (cues::side_of(contact.seen_from_robot())) {
-    case cues::Side::left:
-      return haptics::Zone::left;
-    case cues::Side::right:
-      return haptics::Zone::right;
-    case cues::Side::ahead:
-    case cues::Side::behind:
-      break;
-  }
-  return haptics::Zone::center;
+  const cues::Side side = cues::side_of(contact.seen_from_robot());
+  return side == cues::Side::left    ? haptics::Zone::left
+         : side == cues::Side::right ? haptics::Zone::right
+                                     : haptics::Zone::center;
 }
 
 /// What is felt when a cue is said; the cues that are not here are for the ear alone, unless

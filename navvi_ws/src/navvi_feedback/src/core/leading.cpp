@@ -17,7 +17,7 @@ Lead Guide::Parts::leading(const Observation& now) const {
   const bool deaf = touch.deaf() && !now.devices.sounds;
   if ((wanted == Lead::hand || deaf) && now.motors) return Lead::hand;
   // Where the sides are wrong no sound leads, be it ticks or one that lasts.
-  if (!now.audible || wanted == Lead::words || !sounds.leads()) return Lead::words;
+  if (!now.audible || wanted == Lead::words || !sounds.turn().leads()) return Lead::words;
   return wanted == Lead::flow && following.follows() ? Lead::flow : Lead::ticks;
 }
 
@@ -29,7 +29,7 @@ void Guide::Parts::ask_side(Observation& now, double time, Output& out) {
                    devices.hands.live && !teacher.teaching() &&
                    now.trial == TrialState::State::ready;
   const std::optional<bool> right = side.update(may, !now.voice_busy, now.stick.x, time);
-  if (right == false) sounds.find_sides_wrong();
+  if (right == false) sounds.turn().find_sides_wrong();
   if (right == true && !devices.person.empty()) out.change = "sounds/sides:=" + devices.ears;
   now.side_asked = side.asks();
   if (side.sounds()) {
@@ -40,7 +40,7 @@ void Guide::Parts::ask_side(Observation& now, double time, Output& out) {
     now.notices.push_back(CueKind::sides_wrong);
 }
 
-sounds::Soundscape::Steering Guide::Parts::steering(const Observation& now, double dt) {
+AuditoryDisplay::Steering Guide::Parts::steering(const Observation& now, double dt) {
   const bool drives = now.commanded.linear != 0.0 || now.commanded.angular != 0.0;
   idle = policy.leads() && !drives ? idle + dt : 0.0;
   return {off_course(now), policy.leads_off(), teacher.taught().motion.value_or(now.last_measured)};

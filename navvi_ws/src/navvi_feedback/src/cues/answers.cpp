@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "cues/near_words.hpp"
-#include "cues/robot_motion.hpp"
 #include "cues/state_cues.hpp"
+#include "cues/surroundings.hpp"
 #include "cues/way_words.hpp"
 
 namespace navvi_feedback::cues {

@@ -2,7 +2,7 @@
 
 #include <iterator>
 
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::cues {
 namespace {

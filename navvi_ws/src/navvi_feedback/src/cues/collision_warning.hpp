@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cues/cue_config.hpp"
-#include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
 #include "senses/observation.hpp"
 #include "types.hpp"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,22 @@ struct Cue : Content {
   [[nodiscard]] std::string word() const {
     return kind == CueKind::lesson ? lesson : to_string(static_cast<Content>(*this));
   }
+};
+
+/// When each content was last said.
+class LastSaid {
+ public:
+  void note(const Content& content, double time) { said_[content] = time; }
+  void forget(const Content& content) { said_.erase(content); }
+
+  /// It would come within its least interval now.
+  [[nodiscard]] bool too_soon(const Content& content, double time) const {
+    const auto said = said_.find(content);
+    return said != said_.end() && time - said->second < traits(content.kind).min_interval;
+  }
+
+ private:
+  std::map<Content, double> said_;  ///< s
 };
 
 }  // namespace navvi_feedback::cues

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cues/robot_motion.hpp"
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::cues {
 namespace {

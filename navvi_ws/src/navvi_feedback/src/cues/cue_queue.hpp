@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "cues/cue.hpp"
@@ -53,6 +52,17 @@ class CueQueue {
   std::uint32_t last_id_ = 0;
   std::optional<Entry> running_;
   std::deque<Entry> waiting_;  ///< most important first, then oldest first
+};
+
+/// Keeps out of the record what nobody can have heard.
+class HeardWords {
+ public:
+  /// \param heard  what is played now reaches somebody
+  /// \return the events; words that start unheard are dropped instead, and say no more
+  [[nodiscard]] std::vector<CueEvent> of(std::vector<CueEvent> events, bool heard);
+
+ private:
+  std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device
 };
 
 }  // namespace navvi_feedback::cues

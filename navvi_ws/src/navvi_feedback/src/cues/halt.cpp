@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cues/ahead.hpp"
-#include "cues/robot_motion.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::cues {
 namespace {

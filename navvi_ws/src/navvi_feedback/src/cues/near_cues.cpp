@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "cues/near_words.hpp"
-#include "cues/robot_motion.hpp"
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::cues {
 namespace {

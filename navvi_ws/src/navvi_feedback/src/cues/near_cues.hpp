@@ -7,7 +7,6 @@
 
 #include "cues/collision_warning.hpp"
 #include "cues/cue_config.hpp"
-#include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
 #include "senses/observation.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cues/structure.hpp"
+#include "cues/surroundings.hpp"
 
 namespace navvi_feedback::cues {
 namespace {

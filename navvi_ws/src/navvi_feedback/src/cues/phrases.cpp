@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <iterator>
-#include <navvi_types/spoken_length.hpp>
+#include <navvi_types/spoken.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>

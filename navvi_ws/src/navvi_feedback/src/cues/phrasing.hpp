@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "cues/last_said.hpp"
 #include "cues/phrases.hpp"
 #include "senses/observation.hpp"
 

@@ -5,9 +5,7 @@
 #include <utility>
 
 #include "cues/route_rules.hpp"
-#include "cues/sounds_lead.hpp"
 #include "cues/way_words.hpp"
-#include "cues/words_lead.hpp"
 
 namespace navvi_feedback::cues {
 namespace {

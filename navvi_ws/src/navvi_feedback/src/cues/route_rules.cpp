@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "cues/ahead.hpp"
+#include "cues/surroundings.hpp"
 #include "cues/way_words.hpp"
 
 namespace navvi_feedback::cues {

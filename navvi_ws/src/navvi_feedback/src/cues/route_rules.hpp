@@ -31,6 +31,18 @@ using Rule = Told (*)(const Look& look, Leg& leg);
 /// The first decision counts.
 [[nodiscard]] Utterances first_of(std::initializer_list<Rule> rules, const Look& look, Leg& leg);
 
+// The strategies. Each returns what is said now; the leg knows of it.
+
+/// Where words alone lead: whatever changes where to steer is said, and said again until it is
+/// done. While the robot turns nothing is said but "straight ahead", early enough to stop a turn of
+/// more than one hour by.
+[[nodiscard]] Utterances words_lead(const Look& look, Leg& leg);
+/// Where a sound leads to where to steer: words are for what it cannot tell. Each leg once, turns
+/// of more than one hour, another route, and driving astray.
+[[nodiscard]] Utterances sounds_lead(const Look& look, Leg& leg);
+/// Where a display leads that lasts: words are for what is behind a change of the way.
+[[nodiscard]] Utterances words_beside(const Look& look, Leg& leg);
+
 // The rules that both strategies follow.
 
 /// Something waits for the robot to make room.

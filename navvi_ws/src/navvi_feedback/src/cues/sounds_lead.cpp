@@ -1,8 +1,8 @@
-#include "cues/sounds_lead.hpp"
+#include "cues/route_rules.hpp"
 
 #include <algorithm>
 
-#include "cues/ahead.hpp"
+#include "cues/surroundings.hpp"
 #include "cues/way_words.hpp"
 
 namespace navvi_feedback::cues {

@@ -1,4 +1,4 @@
-#include "cues/sounds_lead.hpp"
+#include "cues/route_rules.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cues/words_lead.hpp"
+#include "cues/route_rules.hpp"
 
 #include <cmath>
 #include <navvi_types/angles.hpp>

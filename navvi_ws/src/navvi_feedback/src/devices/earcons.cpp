@@ -36,22 +36,13 @@ using Partials = std::vector<std::array<double, 2>>;
 
 const Partials& partials(Voicing voicing) {
   static const Partials flute = {{1.0, 0.85}, {2.0, 0.15}};
-  static const Partials horn = {{1.0, 0.6}, {3.0, 0.25}, {5.0, 0.15}};
-  static const Partials clang = {{1.0, 0.3}, {2.76, 0.3}, {5.4, 0.25}, {8.93, 0.15}};
-  static const Partials drone = {{0.5, 0.2}, {1.0, 0.35}, {2.0, 0.2}, {3.0, 0.15}, {5.0, 0.1}};
-  static const Partials knock = {{1.0, 0.7}, {1.6, 0.3}};
-  switch (voicing) {
-    case Voicing::horn:
-      return horn;
-    case Voicing::clang:
-      return clang;
-    case Voicing::knock:
-      return knock;
-    case Voicing::drone:
-      return drone;
-    default:
-      return flute;
-  }
+  static const std::map<Voicing, Partials> others = {
+      {Voicing::horn, {{1.0, 0.6}, {3.0, 0.25}, {5.0, 0.15}}},
+      {Voicing::clang, {{1.0, 0.3}, {2.76, 0.3}, {5.4, 0.25}, {8.93, 0.15}}},
+      {Voicing::drone, {{0.5, 0.2}, {1.0, 0.35}, {2.0, 0.2}, {3.0, 0.15}, {5.0, 0.1}}},
+      {Voicing::knock, {{1.0, 0.7}, {1.6, 0.3}}}};
+  const auto found = others.find(voicing);
+  return found != others.end() ? found->second : flute;
 }
 
 std::vector<Note> notes(sounds::Earcon earcon) {

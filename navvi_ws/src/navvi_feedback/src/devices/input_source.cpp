@@ -82,18 +82,6 @@ void Keyboard::give_way() {
   if (open_) static_cast<void>(window_->send(0, ""));
 }
 
-const char* to_string(InputSource::Kind kind) {
-  switch (kind) {
-    case InputSource::Kind::pad:
-      return "pad";
-    case InputSource::Kind::keyboard:
-      return "keyboard";
-    case InputSource::Kind::topic:
-      break;
-  }
-  return "topic";
-}
-
 InputSource::InputSource(const std::string& wanted) {
   const bool automatic = wanted == "auto";
   if (wanted == "pad" || automatic) {

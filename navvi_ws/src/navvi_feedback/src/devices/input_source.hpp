@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <navvi_types/names.hpp>
 #include <optional>
 #include <string>
 
@@ -73,6 +75,8 @@ class InputSource {
   std::optional<double> received_at_;  ///< s
 };
 
-[[nodiscard]] const char* to_string(InputSource::Kind kind);
+[[nodiscard]] constexpr std::array<const char*, 3> names(InputSource::Kind) {
+  return {"pad", "keyboard", "topic"};
+}
 
 }  // namespace navvi_feedback::devices

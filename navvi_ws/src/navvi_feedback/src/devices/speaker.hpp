@@ -9,9 +9,11 @@
 #include <thread>
 #include <vector>
 
+#include "devices/latencies.hpp"
 #include "devices/mixer.hpp"
 #include "devices/voice.hpp"
 #include "navvi_config/field.hpp"
+#include "navvi_feedback/cues/voice_order.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 
 namespace navvi_feedback::devices {
@@ -102,6 +104,21 @@ class Speaker {
   int muted_at_ = 0;    ///< samples of it that had been mixed
   Status status_;
   std::thread thread_;
+};
+
+/// The voice that obeys the guide, and how long a person waits for it.
+class SpeechChannel : public Speaker {
+ public:
+  /// \param mixer, latencies  outlive this \throws DeviceError as Speaker does
+  SpeechChannel(const SpeakerConfig& config, Mixer& mixer, Latencies& latencies)
+      : Speaker(config, mixer), latencies_(latencies) {}
+
+  /// \param pressed  a button went down that one of the words answers
+  void obey(const cues::VoiceOrder& order, bool pressed = false);
+
+ private:
+  Latencies& latencies_;
+  std::optional<Latencies::Clock::time_point> pressed_;  ///< and not answered yet
 };
 
 }  // namespace navvi_feedback::devices

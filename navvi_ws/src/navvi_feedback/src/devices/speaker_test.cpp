@@ -13,7 +13,6 @@
 
 #include "devices/device_error.hpp"
 #include "heard.hpp"
-#include "devices/speech_channel.hpp"
 
 namespace navvi_feedback::devices {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -62,16 +62,11 @@ struct Instant {
   [[nodiscard]] bool settled() const;
 };
 
-/// One try at what a step asks for.
-class Exercise {
- public:
-  virtual ~Exercise() = default;
-  /// Call it at 50 Hz.
-  [[nodiscard]] virtual Verdict judge(const Instant& now) = 0;
-};
+/// One try at what a step asks for, to be called at 50 Hz.
+using Exercise = std::function<Verdict(const Instant& now)>;
 
 /// \param tries  at this step so far, with this one
-[[nodiscard]] std::unique_ptr<Exercise> begin_exercise(const Step& step, int tries);
+[[nodiscard]] Exercise begin_exercise(const Step& step, int tries);
 
 /// The stick is let go, and the robot stands now.
 [[nodiscard]] bool stands(const Observation& seen);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <memory>
 #include <navvi_types/angles.hpp>
 #include <optional>
 #include <string>
@@ -82,13 +81,13 @@ inline void count_down(const Instant& now, double off, double target, Word& stop
 
 /// Let go at "wait", stand until "go on", and then drive `amount` m straight on, as it says.
 /// \param tries  at this step so far, with this one
-[[nodiscard]] std::unique_ptr<Exercise> begin_wait(const Step& step, int tries);
+[[nodiscard]] Exercise begin_wait(const Step& step, int tries);
 
 /// Back by `amount` m, straight, when the guide says so.
-[[nodiscard]] std::unique_ptr<Exercise> begin_back_away(const Step& step);
+[[nodiscard]] Exercise begin_back_away(const Step& step);
 
 /// Turn by `amount` degrees clockwise, which are whole hours, and drive a metre, when the guide
 /// says so.
-[[nodiscard]] std::unique_ptr<Exercise> begin_make_room(const Step& step);
+[[nodiscard]] Exercise begin_make_room(const Step& step);
 
 }  // namespace navvi_feedback::lessons

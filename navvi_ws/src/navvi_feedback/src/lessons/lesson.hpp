@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "cues/cue.hpp"
-#include "drive/buttons.hpp"
-#include "drive/drive.hpp"
 #include "haptics/haptics.hpp"
 #include "haptics/pattern.hpp"
 #include "lead/course.hpp"

@@ -27,17 +27,6 @@ constexpr double kEvery = 0.7;    // s, between two steps while it is held
 
 std::string key(const char* name) { return std::string("ask_") + name; }
 
-std::vector<std::string> words(const YAML::Node& node, const std::string& where) {
-  if (!node.IsSequence() || node.size() == 0)
-    throw ConfigError(where + " is not a list; allowed is a list of texts.");
-  std::vector<std::string> texts;
-  for (const YAML::Node& entry : node) {
-    if (!entry.IsScalar()) throw ConfigError(where + " holds no text; allowed is a list of texts.");
-    texts.push_back(entry.Scalar());
-  }
-  return texts;
-}
-
 void check_spoken(const std::string& text, const std::string& where) {
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(". ", begin), text.size());
@@ -65,25 +54,16 @@ void check_values(const Question& question, const std::regex& plain, const std::
 }
 
 Question read_question(const YAML::Node& item, const std::string& where) {
-  if (!item.IsMap())
-    throw ConfigError(where + " is not a map; allowed are name, ask, values, spoken and point.");
+  using navvi_config::Any;
   Question question;
-  for (const auto& entry : item) {
-    const std::string name = entry.first.Scalar();
-    const std::string place = where + "/" + name;
-    if (name == "name" || name == "ask") {
-      if (!entry.second.IsScalar()) throw ConfigError(place + " is not a text.");
-      (name == "name" ? question.name : question.ask) = entry.second.Scalar();
-    } else if (name == "values" || name == "spoken") {
-      (name == "values" ? question.values : question.spoken) = words(entry.second, place);
-    } else if (name == "point") {
-      if (!entry.second.IsScalar() || entry.second.Scalar() != "true")
-        throw ConfigError(place + " is not true; allowed is true, or no such key.");
-      question.point = true;
-    } else {
-      throw ConfigError(place + " is unknown; known are name, ask, values, spoken and point.");
-    }
-  }
+  const auto describe = [&](navvi_config::Visitor& visit) {
+    visit(question.name, "name", Any{}, "", "in the record");
+    visit(question.ask, "ask", Any{}, "", "sentences");
+    visit(question.values, "values", Any{}, "", "in the record, from least to most");
+    visit(question.spoken, "spoken", Any{}, "", "the same, as they are said");
+    visit(question.point, "point", Any{}, "", "true: answered by pointing");
+  };
+  navvi_config::read_fields(describe, item, where);
   static const std::regex plain("[A-Za-z0-9_.-]{1,40}( [A-Za-z0-9_.-]{1,40}){0,9}");
   if (!std::regex_match(question.name, plain))
     throw ConfigError(where + "/name is \"" + question.name +

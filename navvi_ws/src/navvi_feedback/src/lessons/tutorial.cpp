@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <navvi_types/angles.hpp>
 
 namespace navvi_feedback::lessons {
 namespace {
@@ -13,8 +12,6 @@ using drive::Button;
 constexpr double kIdle = 15.0;        // s without a try, before it is told again
 constexpr int kManyTries = 4;         // after which the ways out are told once more
 constexpr double kLongestTick = 0.1;  // s
-
-std::string key(const std::string& name) { return tutorial_key(name); }
 
 }  // namespace
 
@@ -75,8 +72,8 @@ std::vector<std::string> Tutorial::texts() {
                            "wrong_was_ahead",
                            "wrong_button",
                            "wrong_no_goal"})
-    keys.push_back(key(name));
-  for (const Step& step : steps()) keys.push_back(key(step.name));
+    keys.push_back(tutorial_key(name));
+  for (const Step& step : steps()) keys.push_back(tutorial_key(step.name));
   return keys;
 }
 
@@ -100,7 +97,7 @@ void Tutorial::begin(std::size_t step) {
   results_.push_back({steps()[step].name, 1, 0.0, false, practising_});
   step_since_.reset();
   phase_ = Phase::telling;
-  teller_.then(key(steps()[step].name));
+  teller_.then(tutorial_key(steps()[step].name));
 }
 
 void Tutorial::attempt() {
@@ -113,7 +110,7 @@ void Tutorial::attempt() {
 
 void Tutorial::leave(const std::string& text, const Teller::Fillings& fillings) {
   phase_ = Phase::leaving;
-  teller_.then(key(text), fillings);
+  teller_.then(tutorial_key(text), fillings);
 }
 
 void Tutorial::finish(bool passed) {
@@ -136,7 +133,7 @@ void Tutorial::next() {
   }
   if (const auto weak = weakest(); weak && !practising_) {
     practising_ = true;
-    teller_.then(key("practice"));
+    teller_.then(tutorial_key("practice"));
     return begin(*weak);
   }
   const auto well = std::count_if(results_.begin(), results_.end(), [](const Result& result) {
@@ -165,14 +162,14 @@ void Tutorial::buttons(const Observation& seen) {
   for (const Button button : seen.pressed) {
     if (!takes(button) || phase_ == Phase::leaving) continue;
     if (button == Button::end) {
-      teller_.tell(key("end"));
+      teller_.tell(tutorial_key("end"));
       phase_ = Phase::leaving;
     } else if (button == Button::next) {
-      teller_.tell(key("skipped"));
+      teller_.tell(tutorial_key("skipped"));
       finish(false);
     } else if (button == Button::repeat) {
       phase_ = Phase::telling;
-      teller_.tell(key(step().name));
+      teller_.tell(tutorial_key(step().name));
     }
   }
 }
@@ -185,9 +182,9 @@ Taught Tutorial::update(const Observation& seen, double time) {
   motors_ = seen.motors;
   teller_.hands(seen.devices.keyboard);
   if (results_.empty()) {
-    teller_.tell(key("welcome"));
-    teller_.then(key("buttons"));
-    if (seen.devices.keyboard) teller_.then(key("keys"));
+    teller_.tell(tutorial_key("welcome"));
+    teller_.then(tutorial_key("buttons"));
+    if (seen.devices.keyboard) teller_.then(tutorial_key("keys"));
     begin(0);
   }
   buttons(seen);
@@ -215,21 +212,21 @@ void Tutorial::act(const Observation& seen, double dt, Taught& taught) {
   moved_.observe(seen, dt, time_);
   const Verdict verdict = !seen.contacts.empty() && !to_goal
                               ? Verdict{false, "hit"}
-                              : exercise_->judge({seen, moved_, time_, teller_, taught});
+                              : exercise_({seen, moved_, time_, teller_, taught});
   const bool idle = !in_trial_ && std::abs(moved_.driven) < 0.05 && std::abs(moved_.turned) < 0.05;
   if (verdict.passed) {
-    teller_.then(key("good"));
+    teller_.then(tutorial_key("good"));
     finish(true);
   } else if (!verdict.wrong.empty()) {
     ++results_.back().tries;
     phase_ = Phase::telling;
-    teller_.tell(key("wrong_" + verdict.wrong));
+    teller_.tell(tutorial_key("wrong_" + verdict.wrong));
     if (to_goal) return finish(false);
-    teller_.then(key(step().name));
-    if (results_.back().tries == kManyTries) teller_.then(key("buttons"));
+    teller_.then(tutorial_key(step().name));
+    if (results_.back().tries == kManyTries) teller_.then(tutorial_key("buttons"));
   } else if (idle && time_ - since_ > kIdle) {
     phase_ = Phase::telling;
-    teller_.tell(key(step().name));
+    teller_.tell(tutorial_key(step().name));
   }
 }
 

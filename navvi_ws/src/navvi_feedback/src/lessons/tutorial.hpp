@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,7 +69,7 @@ class Tutorial : public Lesson {
   // Of one try.
   double since_ = 0.0;  ///< s
   Moved moved_;
-  std::unique_ptr<Exercise> exercise_;
+  Exercise exercise_;
 };
 
 }  // namespace navvi_feedback::lessons

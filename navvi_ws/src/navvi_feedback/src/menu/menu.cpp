@@ -1,7 +1,6 @@
 #include "menu/menu.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace navvi_feedback::menu {
 namespace {

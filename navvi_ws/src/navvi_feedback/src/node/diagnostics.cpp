@@ -24,6 +24,12 @@ void add(DiagnosticStatus& to, const std::string& key, const std::string& value)
   to.values.push_back(pair);
 }
 
+void add(DiagnosticStatus& to, const std::string& key, double value, int decimals) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  add(to, key, text.data());
+}
+
 DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
   if (!pad.connected)
     return status("navvi/pad", DiagnosticStatus::ERROR, "No game controller is connected.");
@@ -126,26 +132,16 @@ DiagnosticStatus latency_status(const devices::Latencies& latencies,
     const auto chain = static_cast<devices::Chain>(i);
     const devices::Latencies::Figures figures = latencies.figures(chain);
     if (figures.count == 0) continue;
-    const auto put = [&](const char* name, double value) {
-      std::array<char, 32> text{};
-      std::snprintf(text.data(), text.size(), "%.1f", value);
-      add(result, navvi_types::to_string(chain) + std::string("_") + name, text.data());
-    };
-    put("p50_ms", figures.p50);
-    put("p99_ms", figures.p99);
-    put("max_ms", figures.longest);
-    add(result, navvi_types::to_string(chain) + std::string("_count"),
-        std::to_string(figures.count));
+    const std::string name = navvi_types::to_string(chain);
+    add(result, name + "_p50_ms", figures.p50, 1);
+    add(result, name + "_p99_ms", figures.p99, 1);
+    add(result, name + "_max_ms", figures.longest, 1);
+    add(result, name + "_count", std::to_string(figures.count));
   }
   if (learnt) {
-    const auto put = [&](const char* name, double value) {
-      std::array<char, 32> text{};
-      std::snprintf(text.data(), text.size(), "%.3f", value);
-      add(result, name, text.data());
-    };
-    put("stopping_delay_s", learnt->stopping_delay);
-    put("stopping_spread_s", learnt->stopping_spread);
-    put("turn_error_rad", learnt->turn_error);
+    add(result, "stopping_delay_s", learnt->stopping_delay, 3);
+    add(result, "stopping_spread_s", learnt->stopping_spread, 3);
+    add(result, "turn_error_rad", learnt->turn_error, 3);
     add(result, "words_lead", learnt->words_lead ? "yes" : "no");
   }
   return result;

@@ -5,7 +5,6 @@
 #include <ros/ros.h>
 
 #include <csignal>
-#include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 
 #include "cues/phrases.hpp"
@@ -14,13 +13,11 @@
 #include "navvi_feedback/core/guide.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"
-#include "node/heartbeat_notice.hpp"
 #include "node/inlets.hpp"
 #include "node/node_config.hpp"
 #include "node/outlets.hpp"
 #include "node/person_devices.hpp"
 #include "node/settings.hpp"
-#include "node/wall_time.hpp"
 
 namespace navvi_feedback::node {
 
@@ -56,7 +53,7 @@ class FeedbackNode {
     ros::param::set("navvi/phrases", config.phrases_file().string());
     ros::param::set("navvi/units", config.feedback->cues.wording.units);
     guide_.offer(settings_.values());
-    ROS_INFO("The stick comes from the %s.", devices::to_string(devices_.source().kind()));
+    ROS_INFO("The stick comes from the %s.", navvi_types::to_string(devices_.source().kind()));
     tick_timer_ =
         node_.createWallTimer(ros::WallDuration(kTick), [this](const ros::WallTimerEvent&) {
           if (now() - last_tick_ >= 0.9 * kTick) tick();
@@ -144,7 +141,7 @@ class FeedbackNode {
     const auto pad = devices_.pad();
     if (const auto notice = pad ? heartbeat_.notice(*pad, now()) : std::nullopt)
       ROS_WARN("%s", notice->c_str());
-    array.status = {pad_status(pad, devices::to_string(devices_.source().kind()), live_,
+    array.status = {pad_status(pad, navvi_types::to_string(devices_.source().kind()), live_,
                                config_.feedback->haptics.enabled),
                     audio_status(devices_.audio()),
                     speech_status(devices_.voice(), config_.speaker.voice),

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "navvi_feedback/node/msg_conversion.hpp"
-#include "node/wall_time.hpp"
 
 namespace navvi_feedback::node {
 
@@ -55,14 +54,6 @@ void Inlets::listen(const std::string& topic, std::uint32_t queue, Take take) {
   subscribers_.push_back(navvi_types::subscribe<Msg>(node_, topic, queue, from_msg, take));
 }
 
-template <typename Msg>
-void Inlets::listen_at_once(
-    const std::string& topic, std::uint32_t queue,
-    const boost::function<void(const ros::MessageEvent<const Msg>&)>& take) {
-  subscribers_.push_back(node_.subscribe<Msg>(topic, queue, take, ros::VoidConstPtr(),
-                                              ros::TransportHints().tcpNoDelay()));
-}
-
 void Inlets::subscribe_to_hands() {
   InputSource& source = devices_.source();
   if (source.kind() == InputSource::Kind::topic)
@@ -70,10 +61,12 @@ void Inlets::subscribe_to_hands() {
         "joy", 1, [this, &source](const drive::InputState& joy) { receive(joy, source); });
   // Without a stick in it, the keys are lost. Each message counts: a short press is two.
   if (source.kind() == InputSource::Kind::keyboard)
-    listen_at_once<sensor_msgs::Joy>(
-        "navvi/keys", 100, [&source](const ros::MessageEvent<const sensor_msgs::Joy>& event) {
-          source.receive(from_msg(*event.getConstMessage()).value_or(drive::InputState{}), now());
-        });
+    subscribers_.push_back(node_.subscribe<sensor_msgs::Joy>(
+        "navvi/keys", 100,
+        [&source](const sensor_msgs::Joy::ConstPtr& keys) {
+          source.receive(from_msg(*keys).value_or(drive::InputState{}), now());
+        },
+        {}, ros::TransportHints().tcpNoDelay()));
   subscribers_.push_back(node_.subscribe<std_msgs::String>(
       "navvi/ask", 10, [this](const std_msgs::String::ConstPtr& msg) {
         if (const auto button = navvi_types::from_word<drive::Button>(msg->data))

@@ -17,6 +17,9 @@
 
 namespace navvi_feedback::node {
 
+/// s; wall time, so that the person hears of a simulation that has stopped.
+inline double now() { return ros::SteadyTime::now().toSec(); }
+
 /// The topics that feedback_node reads. What they bring goes to the guide, the stick or the next
 /// beat; bad messages are dropped and counted.
 class Inlets {
@@ -40,10 +43,6 @@ class Inlets {
  private:
   template <typename Msg, typename Take>
   void listen(const std::string& topic, std::uint32_t queue, Take take);
-  /// Without delay, and with the name of the publisher.
-  template <typename Msg>
-  void listen_at_once(const std::string& topic, std::uint32_t queue,
-                      const boost::function<void(const ros::MessageEvent<const Msg>&)>& take);
   void subscribe_to_hands();
   void receive(drive::InputState joy, devices::InputSource& source);
   void subscribe_to_robot(const NodeConfig& config);

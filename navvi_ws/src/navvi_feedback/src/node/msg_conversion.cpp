@@ -1,6 +1,5 @@
 #include "navvi_feedback/node/msg_conversion.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <navvi_types/msg_conversion.hpp>
 

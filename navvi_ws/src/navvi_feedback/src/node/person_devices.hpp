@@ -9,7 +9,7 @@
 #include "devices/input_source.hpp"
 #include "devices/latencies.hpp"
 #include "devices/mixer.hpp"
-#include "devices/speech_channel.hpp"
+#include "devices/speaker.hpp"
 #include "navvi_feedback/core/guide.hpp"
 #include "navvi_feedback/senses/devices.hpp"
 #include "node/node_config.hpp"

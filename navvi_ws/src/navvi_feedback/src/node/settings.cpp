@@ -8,6 +8,8 @@
 namespace navvi_feedback::node {
 namespace {
 
+using Save = person::Saver<std::string>::Save;
+
 std::optional<person::PersonFile> file_of(const NodeConfig& config) {
   if (config.person.empty()) return std::nullopt;
   return person::PersonFile::of<PersonConfig>(config.person);
@@ -33,7 +35,8 @@ std::vector<Content> cues_of(const std::vector<person::Failure>& failures) {
 Settings::Settings(NodeConfig& config)
     : config_(config),
       file_(file_of(config)),
-      saver_(file_of(config)),
+      saver_(file_ ? Save([file = *file_](const auto& words) { file.save(words); }) : Save(),
+             {CueKind::settings, file_ ? About::not_saved : About::not_kept}),
       places_([path = config.feedback->places](
                   const std::vector<menu::NamedPlace>& places) { menu::add_places(path, places); },
               CueKind::place_not_saved) {}

@@ -9,7 +9,7 @@
 #include "navvi_feedback/core/guide.hpp"
 #include "node/node_config.hpp"
 #include "person/person_file.hpp"
-#include "person/settings_saver.hpp"
+#include "person/saver.hpp"
 #include "types.hpp"
 
 namespace navvi_feedback::node {
@@ -41,7 +41,7 @@ class Settings {
  private:
   NodeConfig& config_;
   std::optional<person::PersonFile> file_;
-  person::SettingsSaver saver_;
+  person::Saver<std::string> saver_;
   person::Saver<menu::NamedPlace> places_;
   std::string recorded_;            ///< of the lesson, as it is in the file
   std::vector<std::string> found_;  ///< by the lesson, and saved

@@ -1,7 +1,6 @@
 #include "picture/markers.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <navvi_types/angles.hpp>
 

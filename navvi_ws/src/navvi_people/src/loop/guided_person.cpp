@@ -2,7 +2,7 @@
 
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_types/msg_conversion.hpp>
-#include <navvi_types/voice_model.hpp>
+#include <navvi_types/spoken.hpp>
 
 #include "node/msg_conversion.hpp"
 

@@ -16,10 +16,6 @@ constexpr double kTremor = 0.3;  // s, over which the noise of a hand is alike
 
 }  // namespace
 
-void TurningConfig::describe(navvi_config::Visitor& visit) {
-  visit(faults, "faults", navvi_config::Any{}, "", "false: turns are as long as they should be");
-}
-
 double Turning::made(double angle) {
   const double error = random_.normal() * config_.over_spread;
   if (!config_.faults) return angle;
@@ -32,11 +28,6 @@ double Turning::made(double angle) {
 double Turning::stop_delay() {
   const double delay = random_.lognormal(config_.stop_delay, config_.stop_spread);
   return config_.faults ? delay : 0.0;
-}
-
-void DrivingConfig::describe(navvi_config::Visitor& visit) {
-  visit(faults, "faults", navvi_config::Any{}, "",
-        "false: the hand is steady, holds its heading and knows the robot exactly");
 }
 
 Driving::Driving(const DrivingConfig& config, std::uint64_t person, std::uint64_t occasion)

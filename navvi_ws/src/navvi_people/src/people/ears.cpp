@@ -21,6 +21,26 @@ std::optional<Item> take_due(std::deque<Item>& items, double time) {
 
 }  // namespace
 
+std::optional<Heard> heard(const CueEvent& cue) {
+  using navvi_types::CueStage;
+  using Moment = Speech::Moment;
+  if (const auto* const earcon = std::get_if<Earcon>(&cue.what))
+    return Sound{*earcon, cue.left, cue.right};
+  if (cue.modality() != navvi_types::Modality::speech) return std::nullopt;
+  switch (cue.stage) {
+    case CueStage::started:
+      return Speech{cue.id, Moment::begins, cue.text};
+    case CueStage::ended:
+      return Speech{cue.id, Moment::ends};
+    case CueStage::cut:
+      return Speech{cue.id, Moment::breaks_off};
+    case CueStage::queued:
+    case CueStage::dropped:
+      break;
+  }
+  return std::nullopt;
+}
+
 void HearingConfig::describe(navvi_config::Visitor& visit) {
   visit(faults, "faults", navvi_config::Any{}, "",
         "false: nothing is missed or mistaken, and reactions are all alike");

@@ -1,7 +1,6 @@
 #include "navvi_people/people/feeling.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace navvi_people::people {
 namespace {

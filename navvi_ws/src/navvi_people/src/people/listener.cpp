@@ -127,15 +127,11 @@ bool Listener::parse(CueKind kind, std::string_view text, std::vector<Instructio
   const std::string_view told = goes_on ? text.substr(go_on.size()) : text;
   const auto phrases = phrases_.find(kind);
   if (phrases == phrases_.end()) return false;
-  const bool known = std::any_of(phrases->second.begin(), phrases->second.end(),
-                                 [&](const Phrase& phrase) { return parse(phrase, told, heard); });
+  const bool known =
+      std::any_of(phrases->second.begin(), phrases->second.end(),
+                  [&](const Phrase& phrase) { return match(phrase, 0, told, {}, heard); });
   if (known && goes_on) heard.front().goes_on = true;
   return known;
-}
-
-bool Listener::parse(const Phrase& phrase, std::string_view text,
-                     std::vector<Instruction>& heard) const {
-  return match(phrase, 0, text, {}, heard);
 }
 
 bool Listener::match(const Phrase& phrase, std::size_t piece, std::string_view text,

@@ -13,11 +13,6 @@ constexpr double kSecondsAMinute = 60.0;
 
 }  // namespace
 
-void MemoryConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(faults, "faults", navvi_config::Any{}, "", "false: every turn is kept in mind");
-}
-
 bool Memory::keeps(double speed, double time) {
   const double free = std::clamp((time - told_) / config_.kSpan, 0.0, 1.0);
   const double quick = speed / kUsualSpeed;
@@ -25,11 +20,6 @@ bool Memory::keeps(double speed, double time) {
   if (config_.faults && lost) return false;
   told_ = time;
   return true;
-}
-
-void AttentionConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(faults, "faults", navvi_config::Any{}, "", "false: never distracted, never gives up");
 }
 
 void Attention::update(bool moves, double time, double dt) {

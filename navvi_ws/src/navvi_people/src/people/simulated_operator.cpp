@@ -1,7 +1,6 @@
 #include "navvi_people/people/simulated_operator.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "people/traits.hpp"
 
@@ -51,9 +50,23 @@ std::optional<Aim> aim_of(const Sound& sound) {
              std::clamp((both - kSlowest) / (1.0 - kSlowest), 0.0, 1.0)};
 }
 
+/// The one parameter of a part whose other numbers are traits.
+struct Faults {
+  bool& faults;
+  const char* without;
+
+  void describe(navvi_config::Visitor& visit) {
+    visit(faults, "faults", navvi_config::Any{}, "", std::string("false: ") + without);
+  }
+};
+
 }  // namespace
 
 void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
+  const auto faults = [&](const char* part, bool& value, const char* without) {
+    Faults described{value, without};
+    visit.group(part, described);
+  };
   visit(seed, "seed", navvi_config::Range{0, 2147483647}, "",
         "of a drawn person's traits, and, with the world's seed, of what the person does");
   visit(type, "type", navvi_config::OneOf{person_types()}, "",
@@ -64,12 +77,13 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   visit(lead, "lead", navvi_config::OneOf{{"words", "ticks", "flow", "hand"}}, "",
         "the way of leading that the person was taught; a batch takes feedback/lead");
   visit.group("hearing", hearing);
-  visit.group("turning", turning);
-  visit.group("driving", driving);
+  faults("turning", turning.faults, "turns are as long as they should be");
+  faults("driving", driving.faults,
+         "the hand is steady, holds its heading and knows the robot exactly");
   visit.group("feeling", feeling);
-  visit.group("tracking", tracking);
-  visit.group("memory", memory);
-  visit.group("attention", attention);
+  faults("tracking", tracking.faults, "a continuous display is followed late, but exactly");
+  faults("memory", memory.faults, "every turn is kept in mind");
+  faults("attention", attention.faults, "never distracted, never gives up");
   visit.group("learning", learning);
 }
 

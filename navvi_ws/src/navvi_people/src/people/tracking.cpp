@@ -63,11 +63,6 @@ std::optional<Aim> Pulses::update(double time) {
   return aim_;
 }
 
-void TrackingConfig::describe(navvi_config::Visitor& visit) {
-  visit(faults, "faults", navvi_config::Any{}, "",
-        "false: a continuous display is followed late, but exactly");
-}
-
 void Tracking::show(std::optional<Aim> aim, double time) {
   const auto same = [&](const Shown& last) {
     return last.aim.has_value() == aim.has_value() &&

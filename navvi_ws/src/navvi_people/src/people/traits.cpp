@@ -1,7 +1,6 @@
 #include "people/traits.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace navvi_people::people {

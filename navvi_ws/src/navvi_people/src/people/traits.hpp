@@ -1,6 +1,5 @@
 #pragma once
 
-#include <navvi_types/random.hpp>
 #include <string>
 #include <vector>
 

@@ -257,7 +257,7 @@ void CaptionsDisplay::tell_rate() {
 
 const CaptionsDisplay::Mover* CaptionsDisplay::threat(const status::Shown& shown,
                                                       const navvi_types::Pose2& robot) const {
-  const auto& guidance = reader_->guidance();
+  const auto& guidance = reader_->status().guidance();
   Eigen::Vector2d place = robot.position;
   if (guidance && guidance->state == navvi_types::Guidance::State::blocked)
     if (const auto way = screen::way_ahead(path_, place, guidance->blocked_distance))
@@ -281,17 +281,24 @@ void CaptionsDisplay::show_threat(const Mover& threat, const Eigen::Vector2d& pi
   const auto edge = screen::edge_arrow(middle.in_camera, middle.pixel, picture, 2.0 * height_);
   if (edge) show_edge_arrow("threat", *edge, Chosen::shared().vision().text, picture, taken);
   const std::string name =
-      reader_->words().of(std::string("words/") + to_string(threat.thing_class));
-  const Plate& plate = words("who", name, height_, true);
+      reader_->status().words().of(std::string("words/") + to_string(threat.thing_class));
+  words("who", name, height_, true);
   const screen::Rect place = seen(threat.place);
-  const Eigen::Vector2d at =
-      edge ? edge->at : Eigen::Vector2d(place.center().x(), std::max(0.0, place.min().y()));
-  std::optional<Eigen::Vector2d>& before = plates_.at("who").place;
-  const auto corner = screen::place({{at, size_of(plate), before}}, picture, taken)[0];
+  show_beside("who",
+              edge ? edge->at
+                   : Eigen::Vector2d(place.center().x(), std::max(0.0, place.min().y())),
+              picture, taken);
+}
+
+void CaptionsDisplay::show_beside(const std::string& name, const Eigen::Vector2d& place,
+                                  const Eigen::Vector2d& picture, screen::Taken& taken) {
+  Painted& entry = plates_.at(name);
+  const Eigen::Vector2d size = size_of(*entry.plate);
+  const auto corner = screen::place({place, size, entry.place}, picture, taken);
   if (!corner) return;
-  before = *corner - at;
-  plates_.at("who").plate->show(corner->x(), corner->y());
-  taken.always.emplace_back(*corner, *corner + size_of(plate));
+  entry.place = *corner - place;
+  entry.plate->show(corner->x(), corner->y());
+  taken.always.emplace_back(*corner, *corner + size);
 }
 
 void CaptionsDisplay::show_banner(const status::Shown& shown, const Eigen::Vector2d& picture,
@@ -311,7 +318,7 @@ void CaptionsDisplay::show_banner(const status::Shown& shown, const Eigen::Vecto
   const Eigen::Vector2d size = size_of(*plate);
   const Eigen::Vector2d usual(0.5 * picture.x(), size.y() + 20.0);
   std::optional<Eigen::Vector2d>& before = plates_.at("banner").place;
-  const auto room = screen::place({{usual, size, before}}, picture, {taken.always, {}})[0];
+  const auto room = screen::place({usual, size, before}, picture, {taken.always, {}});
   // For whom letters cannot be too large they stay.
   if (!room && Chosen::shared().vision().text_height <= kLeastText)
     banner_.share = std::max(kLeastShare, 0.85 * banner_.share);
@@ -346,40 +353,24 @@ void CaptionsDisplay::show_edge_arrow(const std::string& name, const screen::Edg
       pointer(name, arrow.angle, edge_size(picture), [&](double angle, int size) {
         return paint_arrow(angle, size, fill, Chosen::shared().vision());
       });
-  const Eigen::Vector2d low = arrow.at + Eigen::Vector2d(0.0, 0.5 * size_of(plate).y());
-  std::optional<Eigen::Vector2d>& before = plates_.at(name).place;
-  const auto corner = screen::place({{low, size_of(plate), before}}, picture, taken)[0];
-  if (!corner) return;
-  before = *corner - low;
-  plates_.at(name).plate->show(corner->x(), corner->y());
-  taken.always.emplace_back(*corner, *corner + size_of(plate));
+  const Eigen::Vector2d low(0.0, 0.5 * size_of(plate).y());
+  show_beside(name, arrow.at + low, picture, taken);
 }
 
-void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture, const screen::Taken& taken) {
-  std::vector<screen::Plate> wanted;
-  std::vector<Painted*> plates;
+void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture, screen::Taken& taken) {
   const screen::Rect all(Eigen::Vector2d::Zero(), picture);
-  const auto add = [&](const std::string& name, const std::string& text, const Eigen::Vector3d& at,
-                       bool from_edge) {
-    Seen seen = see(at);
-    if (!seen.pixel) return;
+  for (const auto& [id, label] : labels_) {
+    Seen seen = see(label.second);
+    if (!seen.pixel) continue;
     // The goal's stands at the edge where the goal is beyond it.
-    if (from_edge) seen.pixel = seen.pixel->cwiseMax(all.min()).cwiseMin(all.max());
-    if (!all.contains(*seen.pixel)) return;
-    const Plate& plate = words(name, text, height_, false);
-    plates.push_back(&plates_.at(name));
-    wanted.push_back({*seen.pixel, size_of(plate), plates.back()->place});
-  };
-  for (const auto& [id, label] : labels_)
-    add("label" + std::to_string(id), label.first, label.second, id == kGoal);
-  const auto corners = screen::place(wanted, picture, taken);
-  for (std::size_t i = 0; i < plates.size(); ++i) {
-    if (!corners[i]) continue;
-    plates[i]->plate->show(corners[i]->x(), corners[i]->y());
-    plates[i]->place = *corners[i] - wanted[i].anchor;
+    if (id == kGoal) seen.pixel = seen.pixel->cwiseMax(all.min()).cwiseMin(all.max());
+    if (!all.contains(*seen.pixel)) continue;
+    const std::string name = "label" + std::to_string(id);
+    Plate& plate = words(name, label.first, height_, false);
+    show_beside(name, *seen.pixel, picture, taken);
+    const std::optional<Eigen::Vector2d>& corner = plates_.at(name).place;
     // Far from its place, it would seem to name another.
-    if ((*plates[i]->place + 0.5 * wanted[i].size).norm() > kFar * picture.y())
-      plates[i]->plate->hide();
+    if (corner && (*corner + 0.5 * size_of(plate)).norm() > kFar * picture.y()) plate.hide();
   }
 }
 
@@ -434,7 +425,7 @@ bool CaptionsDisplay::from_above() const {
 
 void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
                                       const Eigen::Vector2d& picture, screen::Taken& taken) {
-  const auto& guidance = reader_->guidance();
+  const auto& guidance = reader_->status().guidance();
   if (guidance && guidance->leads() && goal_ != guidance->goal) {
     goal_ = guidance->goal;
     start_ = robot.position;

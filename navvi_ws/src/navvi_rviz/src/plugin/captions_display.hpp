@@ -75,6 +75,9 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   Plate& pointer(const std::string& name, double angle, int size, const Paint& paint);
   /// px, of the arrows at the picture's edge
   [[nodiscard]] int edge_size(const Eigen::Vector2d& picture) const;
+  /// The plate of that name beside a place of the picture, px, if there is room.
+  void show_beside(const std::string& name, const Eigen::Vector2d& place,
+                   const Eigen::Vector2d& picture, screen::Taken& taken);
   /// An arrow at the picture's edge to a place beyond it.
   void show_edge_arrow(const std::string& name, const screen::EdgeArrow& arrow,
                        const look::Color& fill, const Eigen::Vector2d& picture,
@@ -96,7 +99,7 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   void show_threat(const Mover& threat, const Eigen::Vector2d& picture, screen::Taken& taken);
   void show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
                 screen::Taken& taken);
-  void show_labels(const Eigen::Vector2d& picture, const screen::Taken& taken);
+  void show_labels(const Eigen::Vector2d& picture, screen::Taken& taken);
   /// The view from above holds the robot, the start, the goal and the path, and shows where they
   /// are.
   void show_from_above(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,

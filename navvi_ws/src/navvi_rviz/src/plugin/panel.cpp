@@ -109,10 +109,10 @@ QPushButton* Panel::add_button(QLayout* row, const Named& named,
 
 /// Buttons name the keys as the voice does to who drives by keys.
 void Panel::name_all() {
-  const status::Words& words = reader_->words();
+  const status::Words& words = reader_->status().words();
   const auto of = [&](const std::string& key) { return QString::fromStdString(words.of(key)); };
   for (const Named& named : named_) {
-    const bool spoken = !named.spoken.empty() && (named.same || reader_->keyboard());
+    const bool spoken = !named.spoken.empty() && (named.same || reader_->status().keyboard());
     const QString key = spoken ? of("lessons/" + named.spoken) : named.key.toString();
     const QString name = of("picture/" + named.words);
     // The largest letters leave no room for keys.
@@ -254,7 +254,7 @@ void Panel::show_camera(QMainWindow& main) {
 
 bool Panel::eventFilter(QObject* target, QEvent* event) {
   const bool closes = target == window() && event->type() == QEvent::Close;
-  if (!closes || !ros::ok() || !reader_->trial_runs())
+  if (!closes || !ros::ok() || !reader_->status().trial_runs())
     return rviz::Panel::eventFilter(target, event);
   ask("end");
   event->ignore();
@@ -322,7 +322,7 @@ void Panel::show_menu(const QString& words) {
 
 void Panel::refresh() {
   const status::Shown shown = reader_->shown();
-  const status::Words& words = reader_->words();
+  const status::Words& words = reader_->status().words();
   preview_.update(reader_->goal_ahead());
   name_all();
   if (fitted_ != window()->size()) fit();

@@ -7,7 +7,6 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
-#include <utility>
 
 namespace navvi_rviz::plugin {
 
@@ -29,10 +28,8 @@ Reader::Reader() {
       node_, "navvi/order", 1, from_msg,
       [this](const navvi_types::CueEvent& order) { status_.take_order(order); }));
   keep(subscribe<navvi_msgs::Guidance>(
-      node_, "navvi/guidance", 1, from_msg, [this](const navvi_types::Guidance& guidance) {
-        guidance_ = guidance;
-        status_.take(guidance);
-      }));
+      node_, "navvi/guidance", 1, from_msg,
+      [this](const navvi_types::Guidance& guidance) { status_.take(guidance); }));
   keep(subscribe<navvi_msgs::DriveState>(
       node_, "navvi/drive_state", 1, from_msg,
       [this](const navvi_types::DriveState& state) { status_.take(state); }));
@@ -78,7 +75,7 @@ void Reader::read_words() {
 }
 
 std::optional<Eigen::Vector2d> Reader::goal_ahead() const {
-  const bool led = guidance_ && guidance_->leads();
+  const bool led = status_.guidance() && status_.guidance()->leads();
   return status_.trial_waits() && !led ? goal_ : std::nullopt;
 }
 

@@ -13,11 +13,8 @@ class Reader {
  public:
   Reader();
   [[nodiscard]] status::Shown shown();
-  [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const { return guidance_; }
-  /// In the language of the session, once that is known; before in English.
-  [[nodiscard]] const status::Words& words() const { return status_.words(); }
-  [[nodiscard]] bool keyboard() const { return status_.keyboard(); }
-  [[nodiscard]] bool trial_runs() const { return status_.trial_runs(); }
+  /// Its words are in the language of the session, once that is known; before in English.
+  [[nodiscard]] const status::Status& status() const { return status_; }
   /// The goal of the trial that waits for the person to begin it, m, in map.
   [[nodiscard]] std::optional<Eigen::Vector2d> goal_ahead() const;
 
@@ -29,7 +26,6 @@ class Reader {
   std::string units_;    ///< of lengths
   status::Status status_;
   status::SteadyBanner banner_;
-  std::optional<navvi_types::Guidance> guidance_;
   std::optional<Eigen::Vector2d> goal_;  ///< m, in map, of the scenario
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -30,8 +30,8 @@ Eigen::Vector2d over(const Plate& plate) {
 }
 
 /// The corner nearest to the one over the plate's place where it covers nothing of `used`.
-std::optional<Eigen::Vector2d> place(const Plate& plate, const Eigen::Vector2d& picture,
-                                     const std::vector<Rect>& used) {
+std::optional<Eigen::Vector2d> nearest(const Plate& plate, const Eigen::Vector2d& picture,
+                                       const std::vector<Rect>& used) {
   const Eigen::Vector2d wish = over(plate);
   std::optional<Eigen::Vector2d> found;
   double best = std::numeric_limits<double>::infinity();
@@ -56,20 +56,12 @@ std::optional<Eigen::Vector2d> place(const Plate& plate, const Eigen::Vector2d& 
 
 }  // namespace
 
-std::vector<std::optional<Eigen::Vector2d>> place(const std::vector<Plate>& plates,
-                                                  const Eigen::Vector2d& picture,
-                                                  const Taken& taken) {
-  std::vector<Rect> always = taken.always, all = taken.always;
+std::optional<Eigen::Vector2d> place(const Plate& plate, const Eigen::Vector2d& picture,
+                                     const Taken& taken) {
+  std::vector<Rect> all = taken.always;
   all.insert(all.end(), taken.rather.begin(), taken.rather.end());
-  std::vector<std::optional<Eigen::Vector2d>> corners;
-  for (const Plate& plate : plates) {
-    std::optional<Eigen::Vector2d> corner = place(plate, picture, all);
-    if (!corner) corner = place(plate, picture, always);
-    corners.push_back(corner);
-    if (!corner) continue;
-    for (auto* used : {&always, &all}) used->push_back(rect_at(*corner, plate.size));
-  }
-  return corners;
+  const std::optional<Eigen::Vector2d> corner = nearest(plate, picture, all);
+  return corner ? corner : nearest(plate, picture, taken.always);
 }
 
 std::optional<EdgeArrow> edge_arrow(const Eigen::Vector3d& seen,

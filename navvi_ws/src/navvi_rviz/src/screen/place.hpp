@@ -22,13 +22,13 @@ struct Taken {
   std::vector<Rect> rather;  ///< as long as there is room elsewhere
 };
 
-/// Where plates are drawn: over their places if there is room, inside the picture, and never over
-/// each other or what is taken. The first are placed first. One that had to go aside stays where it
-/// is until there is room over its place or much nearer to it.
-/// \return the left upper corner of each, px; nullopt: there is no room
-[[nodiscard]] std::vector<std::optional<Eigen::Vector2d>> place(const std::vector<Plate>& plates,
-                                                                const Eigen::Vector2d& picture,
-                                                                const Taken& taken);
+/// Where a plate is drawn: over its place if there is room, inside the picture, and never over what
+/// is taken. One that had to go aside stays where it is until there is room over its place or much
+/// nearer to it.
+/// \return its left upper corner, px; nullopt: there is no room
+[[nodiscard]] std::optional<Eigen::Vector2d> place(const Plate& plate,
+                                                   const Eigen::Vector2d& picture,
+                                                   const Taken& taken);
 
 /// Where on the edge of the picture an arrow to something outside is drawn.
 struct EdgeArrow {

@@ -9,13 +9,25 @@ namespace {
 
 const Eigen::Vector2d kPicture(1920.0, 1080.0);
 
+/// One after another, each beside those before it.
+std::vector<std::optional<Eigen::Vector2d>> place_all(const std::vector<Plate>& plates,
+                                                      const Eigen::Vector2d& picture,
+                                                      Taken taken) {
+  std::vector<std::optional<Eigen::Vector2d>> corners;
+  for (const Plate& plate : plates) {
+    corners.push_back(place(plate, picture, taken));
+    if (corners.back()) taken.always.emplace_back(*corners.back(), *corners.back() + plate.size);
+  }
+  return corners;
+}
+
 TEST(Place, plates_lie_inside_and_never_over_each_other_or_what_is_taken) {
   const std::vector<Rect> taken = {{Eigen::Vector2d(600.0, 0.0), Eigen::Vector2d(1300.0, 120.0)}};
   std::vector<Plate> plates;
   for (const double x : {-500.0, 0.0, 900.0, 1000.0, 5000.0})
     for (const double y : {-50.0, 100.0, 130.0, 2000.0})
       plates.push_back({{x, y}, {300.0, 50.0}, std::nullopt});
-  const auto corners = place(plates, kPicture, {taken, {}});
+  const auto corners = place_all(plates, kPicture, {taken, {}});
   std::vector<Rect> rects = taken;
   for (std::size_t i = 0; i < plates.size(); ++i) {
     ASSERT_TRUE(corners[i]) << i;
@@ -35,7 +47,7 @@ TEST(Place, large_plates_in_a_low_picture_go_aside) {
                                      {{950.0, 280.0}, {740.0, 110.0}, std::nullopt},
                                      {{950.0, 400.0}, {310.0, 110.0}, std::nullopt}};
   std::vector<Rect> rects = taken;
-  const auto corners = place(plates, low, {taken, {}});
+  const auto corners = place_all(plates, low, {taken, {}});
   for (std::size_t i = 0; i < plates.size(); ++i) {
     ASSERT_TRUE(corners[i]) << i;
     const Rect mine(*corners[i], *corners[i] + plates[i].size);
@@ -48,16 +60,16 @@ TEST(Place, large_plates_in_a_low_picture_go_aside) {
 TEST(Place, a_plate_without_room_beside_what_is_always_free_is_not_drawn) {
   const Rect most(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1800.0, 1080.0));
   const Plate plate{{900.0, 500.0}, {300.0, 50.0}, std::nullopt};
-  EXPECT_FALSE(place({plate}, kPicture, {{most}, {}})[0]);
-  EXPECT_TRUE(place({plate}, kPicture, {{}, {most}})[0]) << "where it rather would not be";
+  EXPECT_FALSE(place(plate, kPicture, {{most}, {}}));
+  EXPECT_TRUE(place(plate, kPicture, {{}, {most}})) << "where it rather would not be";
   const Rect half(Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1800.0, 600.0));
-  EXPECT_GT(place({plate}, kPicture, {{}, {half}})[0]->y(), 600.0);
+  EXPECT_GT(place(plate, kPicture, {{}, {half}})->y(), 600.0);
 }
 
 TEST(Place, a_plate_alone_is_over_the_middle_of_its_place) {
-  const auto corners = place({{{960.0, 540.0}, {200.0, 40.0}, std::nullopt}}, kPicture, {});
-  EXPECT_DOUBLE_EQ(corners[0]->x(), 860.0);
-  EXPECT_LT(corners[0]->y() + 40.0, 540.0);
+  const auto corner = place({{960.0, 540.0}, {200.0, 40.0}, std::nullopt}, kPicture, {});
+  EXPECT_DOUBLE_EQ(corner->x(), 860.0);
+  EXPECT_LT(corner->y() + 40.0, 540.0);
 }
 
 TEST(Place, a_plate_that_went_aside_stays_there_while_what_drove_it_off_passes) {
@@ -68,7 +80,7 @@ TEST(Place, a_plate_that_went_aside_stays_there_while_what_drove_it_off_passes) 
   Eigen::Vector2d corner;
   int moves = 0;
   for (double x = 500.0; x < 1300.0; x += 5.0) {
-    const Eigen::Vector2d now = *place({plate}, kPicture, {{passing(x)}, {}})[0];
+    const Eigen::Vector2d now = *place(plate, kPicture, {{passing(x)}, {}});
     moves += x > 500.0 && !now.isApprox(corner) ? 1 : 0;
     corner = now;
     plate.before = corner - plate.anchor;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <navvi_config/reader.hpp>
-#include <navvi_types/spoken_length.hpp>
+#include <navvi_types/spoken.hpp>
 #include <utility>
 
 namespace navvi_rviz::status {

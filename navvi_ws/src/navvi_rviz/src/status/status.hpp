@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <navvi_types/cue_event.hpp>
@@ -64,6 +63,8 @@ class Status {
   [[nodiscard]] const Words& words() const { return words_; }
   void take(const navvi_types::CueEvent& cue, double time);
   void take(const navvi_types::Guidance& guidance);
+  /// The latest.
+  [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const { return guidance_; }
   void take(const navvi_types::DriveState& state) { gate_ = state.state; }
   void take(const navvi_types::TrialState& state);
   void take_speed(double speed) { speed_ = speed; }

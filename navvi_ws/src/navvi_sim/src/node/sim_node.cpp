@@ -6,10 +6,8 @@
 
 #include <csignal>
 #include <map>
-#include <navvi_config/priority.hpp>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
-#include <navvi_safety/link_outlet.hpp>
 
 #include "live/pacer.hpp"
 #include "navvi_sim/live/session.hpp"

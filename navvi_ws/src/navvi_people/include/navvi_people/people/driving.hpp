@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <navvi_types/random.hpp>
 
-#include "navvi_config/field.hpp"
-
 namespace navvi_people::people {
 
 using navvi_types::Random;
@@ -17,8 +15,6 @@ struct TurningConfig {
   double over_spread = 3.0;  ///< deg, standard deviation, turn by turn
   double stop_delay = 0.05;  ///< s, from the decision to stop a turn to the hand, the median
   double stop_spread = 0.2;  ///< standard deviation of its logarithm
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 class Turning {
@@ -48,8 +44,6 @@ struct DrivingConfig {
   double noise = 0.03;       ///< standard deviation of a stick that is held
   double veer = 0.3;         ///< deg/m, to one side, the same all the way
   double veer_spread = 0.5;  ///< deg, standard deviation, over a metre, of what comes besides
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 class Driving {

@@ -11,7 +11,6 @@
 
 #include "navvi_config/field.hpp"
 #include "navvi_people/people/heard.hpp"
-#include "navvi_people/people/instruction.hpp"
 #include "navvi_people/people/listener.hpp"
 
 namespace navvi_people::people {

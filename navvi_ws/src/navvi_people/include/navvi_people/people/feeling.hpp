@@ -4,7 +4,6 @@
 #include <deque>
 #include <navvi_types/random.hpp>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "navvi_config/field.hpp"

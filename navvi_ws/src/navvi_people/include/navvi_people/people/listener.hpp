@@ -10,11 +10,27 @@
 #include <utility>
 #include <vector>
 
-#include "navvi_people/people/instruction.hpp"
-
 namespace navvi_people::people {
 
+using navvi_types::Ask;
 using navvi_types::CueKind;
+
+/// What a listener makes of a spoken sentence.
+struct Instruction {
+  enum class Side { none, left, right, ahead, behind };
+
+  Ask asks = Ask::nothing;
+  int hour = 12;                   ///< 1 to 12
+  std::optional<double> distance;  ///< m
+  Side side = Side::none;
+  bool very_close = false;  ///< of what is near
+  bool slight = false;      ///< a turn of less than half an hour
+  bool goes_on = false;     ///< after "go on"
+  bool holds = false;       ///< until "go on"
+};
+
+/// Left for right.
+[[nodiscard]] Instruction mirrored(Instruction told);
 
 /// Understands all that a catalogue of phrases can say, in each of its wordings, as a person does
 /// who speaks its language: by the words alone.
@@ -53,8 +69,6 @@ class Listener {
 
   void add(CueKind kind, const std::string& phrase);
   [[nodiscard]] bool parse(CueKind kind, std::string_view text,
-                           std::vector<Instruction>& heard) const;
-  [[nodiscard]] bool parse(const Phrase& phrase, std::string_view text,
                            std::vector<Instruction>& heard) const;
   [[nodiscard]] bool match(const Phrase& phrase, std::size_t piece, std::string_view text,
                            Instruction told, std::vector<Instruction>& heard) const;

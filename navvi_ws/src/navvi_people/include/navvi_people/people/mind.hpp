@@ -16,8 +16,6 @@ struct MemoryConfig {
   /// share of second turns that are lost, told at once after a first, at a stick of 0.8
   double lost = 0.1;
   static constexpr double kSpan = 3.0;  ///< s, after which a first turn is no longer in the way
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 class Memory {
@@ -40,8 +38,6 @@ struct AttentionConfig {
   double patience = 12.0;      ///< s, of silence while driving before asking
   double idle_patience = 2.5;  ///< s, of silence while waiting before asking
   double gives_up = 240.0;     ///< s, of standing, and then gives up
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 class Attention {

@@ -10,7 +10,6 @@
 #include "navvi_people/people/ears.hpp"
 #include "navvi_people/people/feeling.hpp"
 #include "navvi_people/people/heard.hpp"
-#include "navvi_people/people/instruction.hpp"
 #include "navvi_people/people/mind.hpp"
 #include "navvi_people/people/situation.hpp"
 #include "navvi_people/people/tracking.hpp"

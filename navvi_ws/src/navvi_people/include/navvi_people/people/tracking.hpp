@@ -5,7 +5,6 @@
 #include <navvi_types/random.hpp>
 #include <optional>
 
-#include "navvi_config/field.hpp"
 #include "navvi_people/people/heard.hpp"
 
 namespace navvi_people::people {
@@ -32,8 +31,6 @@ struct TrackingConfig {
   double delay = 0.3;        ///< s, from a sound's place between the ears to the stick
   double speed_delay = 0.45; ///< s, from its pitch to the stick
   double noise = 0.15;       ///< standard deviation of what is followed, as a share of it
-
-  void describe(navvi_config::Visitor& visit);
 };
 
 /// Follows a continuous display as the crossover model has it (McRuer and Jex 1967): with a delay,

@@ -4,12 +4,10 @@
 #include <exception>
 #include <functional>
 #include <future>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "person/person_file.hpp"
 #include "types.hpp"
 
 namespace navvi_feedback::person {
@@ -24,7 +22,7 @@ struct Failure {
 template <typename Item>
 class Saver {
  public:
-  /// Runs in that thread. It throws if it fails.
+  /// Runs in that thread. It throws if it fails. Without one nothing is kept, which fails once.
   using Save = std::function<void(const std::vector<Item>&)>;
 
   Saver(Save save, Content failure) : save_(std::move(save)), failure_(failure) {}
@@ -37,6 +35,8 @@ class Saver {
     std::vector<Failure> failures;
     if (saving_.valid() && saving_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
       collect(failures);
+    if (!save_ && !std::exchange(unsaved_, {}).empty() && !std::exchange(told_, true))
+      failures.push_back({failure_, ""});
     if (!unsaved_.empty() && !saving_.valid())
       saving_ = std::async(std::launch::async,
                            [save = save_, items = std::exchange(unsaved_, {})] { save(items); });
@@ -66,25 +66,7 @@ class Saver {
   Content failure_;
   std::vector<Item> unsaved_;
   std::future<void> saving_;
-};
-
-/// Saves what a person changes while driving.
-class SettingsSaver {
- public:
-  /// \param file  without one, settings hold for the session alone, which is a failure once
-  explicit SettingsSaver(std::optional<PersonFile> file);
-
-  /// \param word  such as "speaker/rate:=300"
-  void save(const std::string& word);
-
-  /// As Saver's.
-  [[nodiscard]] std::vector<Failure> update();
-  [[nodiscard]] std::vector<Failure> finish();
-
- private:
-  std::optional<Saver<std::string>> saver_;
-  bool lost_ = false;  ///< something is not kept
-  bool told_ = false;  ///< that nothing is
+  bool told_ = false;  ///< that nothing is kept
 };
 
 }  // namespace navvi_feedback::person

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
@@ -31,6 +32,14 @@ struct SpokenLength {
                 std::min(rounded, kFar));
   if (feet) return {number, rounded == 1.0 ? "foot" : "feet"};
   return {number, rounded == 1.0 ? "meter" : "meters"};
+}
+
+/// s: when a voice of usual pace, that begins a text at a time, has spoken it. Where there is no
+/// device, as in sessions without ROS.
+[[nodiscard]] constexpr double spoken_at(double begun, std::size_t characters) {
+  constexpr double kStarts = 0.15;  // s
+  constexpr double kCharactersPerSecond = 18.0;
+  return begun + kStarts + static_cast<double>(characters) / kCharactersPerSecond;
 }
 
 }  // namespace navvi_types

@@ -1,9 +1,11 @@
-#include "person/settings_saver.hpp"
+#include "person/saver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
+
+#include "person/person_file.hpp"
 
 namespace navvi_feedback::person {
 namespace {
@@ -19,20 +21,24 @@ struct Config {
   }
 };
 
-class SettingsSaverTest : public testing::Test {
+class SaverTest : public testing::Test {
  protected:
-  SettingsSaverTest() {
+  SaverTest() {
     fs::remove_all(folder_);
     setenv("NAVVI_PEOPLE", folder_.c_str(), 1);
   }
-  ~SettingsSaverTest() override { fs::remove_all(folder_); }
+  ~SaverTest() override { fs::remove_all(folder_); }
   static PersonFile anna() { return PersonFile::of<Config>("anna"); }
+  static Saver<std::string> saver_of_anna() {
+    return {[](const std::vector<std::string>& words) { anna().save(words); },
+            {CueKind::settings, About::not_saved}};
+  }
 
   const fs::path folder_ = fs::path(testing::TempDir()) / "navvi_people" / "of_a_saver";
 };
 
-TEST_F(SettingsSaverTest, saves_all_there_is_before_the_end) {
-  SettingsSaver saver(anna());
+TEST_F(SaverTest, saves_all_there_is_before_the_end) {
+  Saver<std::string> saver = saver_of_anna();
   saver.save("rate:=300");
   EXPECT_TRUE(saver.update().empty());
   saver.save("rate:=310");  // while the first is being written
@@ -42,8 +48,8 @@ TEST_F(SettingsSaverTest, saves_all_there_is_before_the_end) {
   EXPECT_EQ(anna().load()["volume"].as<int>(), 80);
 }
 
-TEST_F(SettingsSaverTest, without_a_file_says_once_that_nothing_is_kept) {
-  SettingsSaver saver(std::nullopt);
+TEST_F(SaverTest, without_a_file_says_once_that_nothing_is_kept) {
+  Saver<std::string> saver({}, {CueKind::settings, About::not_kept});
   EXPECT_TRUE(saver.update().empty());
   saver.save("rate:=300");
   const std::vector<Failure> failures = saver.update();
@@ -53,10 +59,10 @@ TEST_F(SettingsSaverTest, without_a_file_says_once_that_nothing_is_kept) {
   EXPECT_TRUE(saver.finish().empty());
 }
 
-TEST_F(SettingsSaverTest, tells_what_cannot_be_written) {
+TEST_F(SaverTest, tells_what_cannot_be_written) {
   fs::create_directories(folder_.parent_path());
   std::ofstream(folder_) << "a file where the folder should be";
-  SettingsSaver saver(anna());
+  Saver<std::string> saver = saver_of_anna();
   saver.save("rate:=300");
   const std::vector<Failure> failures = saver.finish();
   ASSERT_EQ(failures.size(), 1U);

@@ -1,40 +1,9 @@
-#include "sounds/soundscape.hpp"
+#include "sounds/turn_notice.hpp"
 
 #include <gtest/gtest.h>
 
 namespace navvi_feedback::sounds {
 namespace {
-
-/// How often it sounds in 10 s.
-int count(const SoundsConfig& config, Earcon earcon, const Observation& now) {
-  Soundscape soundscape(config);
-  int times = 0;
-  for (int i = 0; i < 500; ++i)
-    for (const Play& play : soundscape.update(now, {0.0, false, {}}, i * 0.02))
-      times += play.earcon == earcon ? 1 : 0;
-  return times;
-}
-
-Observation with_waypoint_in(double distance) {
-  Observation now;
-  now.guidance.emplace();
-  now.guidance->waypoint_distance = distance;
-  return now;
-}
-
-TEST(Soundscape, has_no_beacon_unless_asked_for) {
-  EXPECT_EQ(count({}, Earcon::beacon, with_waypoint_in(5.0)), 0);
-}
-
-TEST(Soundscape, has_a_beacon_that_quickens_up_to_the_capture_radius) {
-  SoundsConfig config;
-  config.beacon.on = true;
-  const int far = count(config, Earcon::beacon, with_waypoint_in(10.0));
-  EXPECT_NEAR(far, 9, 1);
-  EXPECT_GT(count(config, Earcon::beacon, with_waypoint_in(2.0)), 2 * far);
-  EXPECT_EQ(count(config, Earcon::beacon, with_waypoint_in(1.4)), 0);
-  EXPECT_EQ(count(config, Earcon::beacon, {}), 0);
-}
 
 /// Ticks of 3 s at 0.8 m/s towards a corner; their side, 1 left. \param turn  rad, clockwise
 int ticks(TurnNotice& notice, double turn, double distance, double& side) {
@@ -73,5 +42,4 @@ TEST(TurnNotice, does_not_come_for_a_bend_or_a_corner_that_is_far) {
 }
 
 }  // namespace
-
 }  // namespace navvi_feedback::sounds
