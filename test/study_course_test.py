@@ -1,4 +1,5 @@
 """Studies without a session: what comes next, and the journal after crashes."""
+import errno
 import getpass
 import itertools
 import multiprocessing
@@ -292,6 +293,24 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
         kept.path.write_text("".join(changed))
         with pytest.raises(StudyError, match="damaged, changed"):
             journal.Journal(kept.path).rows()
+
+
+def test_a_row_that_may_not_last_is_not_read(tmp_path, monkeypatch):
+    kept = journal.Journal(tmp_path / "journal.jsonl")
+    kept.append("done", number=0)
+
+    def fail(_):
+        raise OSError(errno.EIO, "Input/output error")
+    with monkeypatch.context() as disk:
+        disk.setattr(os, "fsync", fail)
+        with pytest.raises(StudyError, match="cannot be written: Input/output error. Nothing is begun"):
+            kept.append("done", number=1)
+        disk.setattr(os, "write", lambda file, line, write=os.write: write(file, line[:9]))
+        with pytest.raises(StudyError, match="only a part"):
+            kept.append("done", number=2)
+    for one in (kept, journal.Journal(kept.path)):
+        assert [row["number"] for row in one.rows()] == [0]
+    assert kept.append("done", number=3)["seq"] == 2
 
 
 def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):

@@ -175,7 +175,7 @@ def done_in(folder):
 
 
 def replace(path, text):
-    """As a whole, and on the disk."""
+    """As a whole: a loss of power leaves the old bytes or the new ones."""
     part = path.with_name(f".{path.name}.{os.getpid()}")
     with naming(path), open(part, "wb") as file:
         file.write(bytes_of(text))

@@ -43,6 +43,8 @@ class Journal:
                     raise OSError("the disk took only a part of the row")
                 os.fsync(file)
             except OSError as problem:
+                with contextlib.suppress(OSError):
+                    os.ftruncate(file, self._good)  # a row that may not last is not to be read as one that does
                 raise StudyError(f"{self.path} cannot be written: {problem.strerror or problem}. Nothing is begun; mend that and try again.") from None
             return row
 
