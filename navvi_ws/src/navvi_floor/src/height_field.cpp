@@ -42,6 +42,7 @@ HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<
   const std::size_t most = kFreeRuns + kRunsANode * voxels.octets.size();
   std::atomic<std::size_t> stacked{0};
   in_parallel(bands, threads, [&](int band) {
+    if (stacked > most) return;
     std::vector<Lower>& lower = lower_[static_cast<std::size_t>(band)];
     const auto row_at = [&](int end) {
       return static_cast<int>(static_cast<std::int64_t>(size_[1]) * end / bands);

@@ -21,10 +21,13 @@ constexpr std::size_t kMostPieces = 100'000;  // assimp takes some 1.3 kB for ea
 constexpr std::size_t kSearched = 1'000;      // nodes that are looked at in the time of one piece
 constexpr std::size_t kDeepestNode = 200;
 
-/// The value of an attribute; empty if there is none.
+/// The value of an attribute, with blanks as assimp reads them; empty if there is none.
 std::string value_of(const tinyxml2::XMLElement& element, const char* attribute) {
-  const char* value = element.Attribute(attribute);
-  return value == nullptr ? "" : value;
+  const char* const found = element.Attribute(attribute);
+  std::string value = found == nullptr ? "" : found;
+  for (char& letter : value)
+    if (std::strchr("\t\r\n", letter) != nullptr) letter = ' ';
+  return value;
 }
 
 /// The nodes of a Collada text, and what they unfold to.
@@ -72,9 +75,11 @@ class ColladaNodes {
       if (std::strtod(value_of(element, attribute).c_str(), nullptr) > static_cast<double>(bytes_))
         refuse("has a <" + shown + "> with a larger " + attribute + " than the file has bytes");
     if (name != "p" && name != "v" && name != "h" && name != "vcount") return;
-    const char* text = element.GetText();
-    if (text != nullptr && text[std::strspn(text, "0123456789+- \t\r\n")] != '\0')
-      refuse("has a <" + shown + "> that holds more than indices; allowed are whole numbers");
+    // Comments and elements may part the text; the reader takes any of its parts.
+    for (const auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling())
+      if (child->ToText() != nullptr &&
+          child->Value()[std::strspn(child->Value(), "0123456789+- \t\r\n")] != '\0')
+        refuse("has a <" + shown + "> that holds more than indices; allowed are whole numbers");
   }
 
   /// \param node  around the element; kNone outside of any

@@ -86,6 +86,15 @@ TEST_F(MeshFile, refuses_collada_nodes_that_instance_themselves) {
   }
 }
 
+TEST_F(MeshFile, refuses_words_among_the_indices_of_collada_whatever_parts_them) {
+  const std::string whole = collada("", "<node>" + kPiece + "</node>");
+  for (const std::string words : {"0 1 foo", "0 1<!-- -->foo 2", "0 1<!x>foo 2", "<x/>foo"}) {
+    std::string text = whole;
+    text.replace(text.find("0 1 2</p>"), 5, words);
+    EXPECT_NE(refusal("words.dae", text).find("more than indices"), std::string::npos) << words;
+  }
+}
+
 TEST_F(MeshFile, refuses_collada_that_unfolds_to_more_than_it_may) {
   std::string levels = "<library_nodes><node id='n0'>" + kPiece + "</node>";
   for (int i = 1; i <= 10; ++i)
@@ -101,8 +110,9 @@ TEST_F(MeshFile, refuses_collada_that_unfolds_to_more_than_it_may) {
             std::string::npos);
   EXPECT_NE(
       refusal("deep.dae", collada("", repeated("<node>", 300) + kPiece + repeated("</node>", 300)))
-          .find("nested too deep"),
-      std::string::npos);
+          .find("deep"),
+      std::string::npos)
+      << "of tinyxml2, by its version, or ours";
   std::string chain = "<library_nodes><node id='n0'>" + kPiece + "</node>";
   for (int i = 1; i <= 1000; ++i)
     chain += "<node id='n" + std::to_string(i) + "'><instance_node url='#n" +

@@ -81,6 +81,7 @@ class Repair {
       const std::size_t begin = std::min(content_.size(), content_.find('<', at_));
       copy_to(begin);
       if (begin == content_.size()) return;
+      count();
       if (begins("<!--"))
         copy_past("-->");
       else if (begins("<![CDATA["))
@@ -120,18 +121,22 @@ class Repair {
     return "line " + std::to_string(line_);
   }
 
+  /// A tag, a comment or an attribute.
+  void count() {
+    if (++tags_ == kMostTags)
+      excess_ = line() + ": there are " + std::to_string(kMostTags) +
+                " tags, comments and attributes or more; allowed are fewer";
+  }
   /// From '<' to '>'.
   void copy_tag() {
     const bool closes = begins("</");
-    if (++tags_ == kMostTags)
-      excess_ = line() + ": there are " + std::to_string(kMostTags) +
-                " tags or more; allowed are fewer";
     std::size_t attributes = 0;
     while (at_ < content_.size() && content_[at_] != '>') {
       const std::size_t next = content_.find_first_of("=>", at_);
       copy_to(next == std::string::npos ? content_.size() : next);
       if (at_ == content_.size() || content_[at_] == '>') break;
       copy_to(std::min(content_.size(), content_.find_first_not_of(" \t\r\n", at_ + 1)));
+      count();
       if (++attributes == kMostAttributes)
         excess_ = line() + ": an element has " + std::to_string(kMostAttributes) +
                   " attributes or more; allowed are fewer";

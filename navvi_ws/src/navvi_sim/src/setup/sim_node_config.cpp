@@ -16,8 +16,9 @@ namespace {
 /// The numbers of a list such as "1,-9,1.57".
 std::vector<double> numbers(const std::string& list, std::size_t count, const std::string& key,
                             const std::string& form) {
+  const bool plain = list.find_first_not_of("0123456789+-.,eE \t") == std::string::npos;
   try {
-    const auto values = YAML::Load("[" + list + "]").as<std::vector<double>>();
+    const auto values = YAML::Load(plain ? "[" + list + "]" : "[]").as<std::vector<double>>();
     const bool finite = std::all_of(values.begin(), values.end(),
                                     [](double value) { return std::isfinite(value); });
     if (values.size() == count && finite && list.back() != ',') return values;

@@ -18,7 +18,8 @@ TEST(SimNodeConfig, takes_start_and_goal_as_lists_of_finite_numbers) {
   EXPECT_EQ(config.start_pose()->position.y(), -9.0);
   EXPECT_EQ(config.start_pose()->yaw, 1.57);
   EXPECT_EQ(config.goal_point()->y(), 6.0);
-  for (const char* bad : {"1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,3x", "1,,3", "1,2,3,", ","}) {
+  for (const char* bad : {"1,2", "1,2,3,4", "a,b,c", "1,2,nan", "1,2,3x", "1,,3", "1,2,3,", ",",
+                          "1,2,3] x", "1,2,'3'"}) {
     config.start = bad;
     EXPECT_THROW((void)config.start_pose(), navvi_config::ConfigError) << bad;
   }
