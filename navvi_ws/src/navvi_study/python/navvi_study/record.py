@@ -73,7 +73,10 @@ class Record:
         fields = ast.literal_eval(data[10:size].decode())["descr"]
         row = struct.Struct("<" + "".join(FORMATS.get(kind) or kind[1:] + "s" for _, kind in fields))
         names = [name for name, _ in fields]
-        return [dict(zip(names, values)) for values in row.iter_unpack(data[size:len(data) - (len(data) - size) % row.size])]
+        rows = [dict(zip(names, values)) for values in row.iter_unpack(data[size:len(data) - (len(data) - size) % row.size])]
+        # What a loss of power took out of the middle reads as zeros.
+        ends = (at for at, one in enumerate(rows) if one["time"] <= (rows[at - 1]["time"] if at else 0.0))
+        return rows[:next(ends, None)]
 
     def events(self):
         """Rows of events.csv, by column; none where there is no such file."""

@@ -75,9 +75,11 @@ TrackFile::~TrackFile() {
 }
 
 navvi_files::Problem TrackFile::append(const Track& rows) {
-  int error = write_at(kHead + rows_ * sizeof(TrackRow), bytes_of(rows));
+  unwritten_.insert(unwritten_.end(), rows.begin(), rows.end());
+  int error = write_at(kHead + rows_ * sizeof(TrackRow), bytes_of(unwritten_));
   if (error == 0) {
-    rows_ += rows.size();
+    rows_ += unwritten_.size();
+    unwritten_.clear();
     error = write_at(0, head_of(rows_));
   }
   if (error != 0) return navvi_files::failure("write the track", error);
@@ -85,6 +87,7 @@ navvi_files::Problem TrackFile::append(const Track& rows) {
 }
 
 navvi_files::Problem TrackFile::sync() {
+  if (auto problem = append({})) return problem;
   if (calls_.fdatasync(file_) == 0) return std::nullopt;
   return navvi_files::failure("sync the track", errno);
 }

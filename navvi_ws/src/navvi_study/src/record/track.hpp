@@ -67,9 +67,9 @@ class TrackFile {
   TrackFile(const TrackFile&) = delete;
   TrackFile& operator=(const TrackFile&) = delete;
 
-  /// From now on the file holds these, too.
+  /// From now on the file holds these, too; what could not be written is tried again the next time.
   [[nodiscard]] navvi_files::Problem append(const Track& rows);
-  /// Makes them last through a loss of power.
+  /// Makes all of them last through a loss of power.
   [[nodiscard]] navvi_files::Problem sync();
 
  private:
@@ -79,6 +79,7 @@ class TrackFile {
   navvi_files::SystemCalls calls_;
   int file_;
   std::size_t rows_ = 0;
+  Track unwritten_;
 };
 
 }  // namespace navvi_study::record

@@ -211,6 +211,13 @@ class PowerLoss : public Trials {
     ::waitpid(child, nullptr, 0);
     return lines;
   }
+  /// Changes a byte in the middle of the journal of a trial that has ended.
+  void damage() const {
+    const fs::path journal = fs::directory_iterator(folder_ / "cut")->path() / "journal.csv";
+    std::string bytes = navvi_files::read_file(journal).value();
+    bytes[bytes.size() / 2] ^= 1;
+    std::ofstream(journal, std::ios::binary) << bytes;
+  }
   /// Brings a folder of trials in order, as the next session does, and judges it.
   void judge(const fs::path& out, const Lines& published) {
     static_cast<void>(record::recover_trials(out));
@@ -225,8 +232,8 @@ class PowerLoss : public Trials {
       if (contents.rows.empty()) continue;
       const std::string summary = navvi_files::read_file(trial / "summary.csv").value_or("none");
       EXPECT_EQ(summary, record::summary_csv(record::summarize(kept))) << "as counted again";
-      for (std::size_t i = 0; i < kept.track.size(); ++i)
-        EXPECT_GT(kept.track[i].time, i > 0 ? kept.track[i - 1].time : 0.0);
+      for (std::size_t i = 1; i < kept.track.size(); ++i)
+        EXPECT_LT(kept.track[i].time, kept.track[i - 1].time + 0.06) << "no row is missing";
       EXPECT_NE(journal.find(",TRIAL_END,"), std::string::npos);
       const std::string result = record::cell_of(record::parse_summary(summary).value(), "result");
       const bool said = journal.find("result=reached") != std::string::npos;
@@ -258,9 +265,10 @@ TEST_F(PowerLoss, L3_at_each_call_of_a_trial_its_disk_fails_or_it_is_killed) {
 }
 
 TEST_F(PowerLoss, L3_at_each_call_of_a_recovery_it_is_killed) {
-  for (const int at : {12, 21, 34}) {
+  for (const int at : {12, 21, 34, 0}) {
     const Lines published = drive_in_child("cut", Fault::kill_half, at);
-    for (int call = 1, last = 1; call <= last; ++call) {
+    if (at == 0) damage();
+    for (int call = 1, last = 1; call <= last + 1; ++call) {
       SCOPED_TRACE("cut at " + std::to_string(at) + ", recovery at " + std::to_string(call));
       const fs::path out = folder_ / "again";
       fs::copy(folder_ / "cut", out, fs::copy_options::recursive);
@@ -278,7 +286,7 @@ TEST_F(PowerLoss, L3_at_each_call_of_a_recovery_it_is_killed) {
         }
         ::waitpid(child, nullptr, 0);
       }
-      judge(out, published);
+      judge(out, at == 0 ? Lines() : published);
       if (HasFailure()) return;
       fs::remove_all(out);
     }

@@ -379,9 +379,13 @@ void TrialKeeper::end(const Ending& ending) {
 
 void TrialKeeper::write_end() {
   keep_track(ending_.stamp);
-  if (const auto problem = kept_.track->sync()) tell(Tone::error, *problem);
   // The goal may have been reached just before the end that was called first.
   ending_ = TrialFlow::last_word(ending_, monitor_.arrival(), kept_.journal->full());
+  if (const auto problem = kept_.track->sync()) {
+    tell(Tone::error, *problem);
+    ending_.result = "invalid";
+    ending_.reason = "track_not_written";
+  }
   record::Fields fields = monitor_.end_fields();
   fields.set("result", ending_.result).set("reason", ending_.reason);
   enter(Phase::closing);

@@ -1,6 +1,7 @@
 #include "trial/trial_keeper.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -480,6 +481,20 @@ TEST_F(Trials, are_invalid_from_the_first_row_that_may_not_be_on_the_disk) {
   EXPECT_EQ(events_.size(), told) << "nothing is told that is not recorded";
   EXPECT_NE(said_.find("The trial is invalid"), std::string::npos) << said_;
   EXPECT_NE(content("summary.csv").find("journal_broken"), std::string::npos);
+}
+
+TEST_F(Trials, L3_are_invalid_where_their_track_may_not_last) {
+  calls_.fdatasync = [](int file) {
+    const fs::path path = fs::read_symlink("/proc/self/fd/" + std::to_string(file));
+    if (path.filename() != "track.npy") return ::fdatasync(file);
+    errno = EIO;
+    return -1;
+  };
+  run();
+  live(9.0, State::arrived, kScenario.goal);
+  ASSERT_TRUE(keeper_->done());
+  EXPECT_NE(said_.find("cannot sync the track"), std::string::npos) << said_;
+  EXPECT_NE(content("summary.csv").find("invalid,track_not_written"), std::string::npos);
 }
 
 TEST_F(Trials, with_a_text_that_would_break_the_record_are_refused) {
