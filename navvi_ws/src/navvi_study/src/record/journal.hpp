@@ -81,8 +81,9 @@ struct Recovery {
 };
 
 /// Puts a trial's folder in order after a crash: bytes after the last good row are set aside in
-/// journal.torn*, an open trial is closed by TRIAL_END with result aborted (invalid where its summary
-/// says so, or more than a torn last row was damaged). Nothing is deleted. Running it again changes nothing.
+/// journal.torn*, an open trial is closed by TRIAL_END with result aborted (invalid where its
+/// summary says so, or more than a torn last row was damaged). Nothing is deleted. Running it again
+/// changes nothing.
 [[nodiscard]] Recovery recover(
     const std::filesystem::path& folder,
     const navvi_files::SystemCalls& calls = navvi_files::SystemCalls::real());
