@@ -38,7 +38,7 @@ class Leading : public testing::Test {
       output = beat(*guide_, devices_, time_);
       flow_.push_back(output.flow);
       rumble_.push_back(output.rumble);
-      for (const cues::Cue& cue : output.cues) said_.insert(cue.kind);
+      for (const cues::Cue& cue : output.cues) said_.insert(cue.goes_on ? CueKind::go_on : cue.kind);
       for (const sounds::Play& play : output.plays) played_.insert(play.earcon);
       if (output.pattern) patterns_.insert(*output.pattern);
     }
@@ -107,6 +107,20 @@ TEST_F(Leading, by_a_sound_that_nobody_follows_gives_way_to_ticks) {
   pass(20.0);
   EXPECT_EQ(flow_.back().right, 0.0);
   EXPECT_EQ(played_.count(sounds::Earcon::turn), 1U);
+}
+
+TEST_F(Leading, by_a_sound_that_gives_way_says_go_on_to_a_person_who_still_waits) {
+  begin("flow");
+  pass(2.0);
+  state_ = Guidance::State::blocked;
+  motion_ = {};
+  pass(3.0);
+  state_ = Guidance::State::following;
+  steer_ = 0.6;
+  pass(12.0);
+  EXPECT_EQ(said_.count(CueKind::go_on), 0U) << "the sound leads again";
+  pass(12.0);
+  EXPECT_EQ(said_.count(CueKind::go_on), 1U);
 }
 
 TEST_F(Leading, by_the_hand_pulses_on_the_side_to_steer_to_and_sounds_nothing_of_the_way) {

@@ -117,9 +117,11 @@ bool CuePolicy::halt(const Utterances& told, const Tick& tick) {
     const bool said = utterance.asked || !phrasing_.too_soon(utterance, tick.time);
     if (family_of(utterance.kind) != Family::halt || !said) continue;
     // What leads all the time ends with a way that is blocked, and comes again with it.
-    if (lasts(tick.now.lead) && utterance.kind == CueKind::blocked) continue;
+    const bool shown = lasts(tick.now.lead) && utterance.kind == CueKind::blocked;
+    if (shown && halt_.halted()) continue;
     halt_.say(utterance, tick.time);
-    stops = true;
+    if (shown) halt_.end(tick.time);
+    stops = stops || !shown;
   }
   return stops;
 }
@@ -143,7 +145,7 @@ Utterances CuePolicy::way(const Tick& tick) {
   // What leads all the time is "go on" itself.
   if (lasts(tick.now.lead)) {
     const bool stood = halt_.told() && tick.time - *halt_.told() > kStood;
-    if (may_go || (stood && is_fixed(halt_.words()))) halt_.end();
+    if (may_go || (stood && is_fixed(halt_.words()))) halt_.end(tick.time);
     return route_.update(tick.now, halt_.halted(), tick.time);
   }
   Utterances told = route_.update(tick.now, halt_.halted(), tick.time);

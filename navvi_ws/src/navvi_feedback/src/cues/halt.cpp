@@ -53,6 +53,12 @@ void Halt::release(const std::string& text) {
   release_id_.reset();
 }
 
+void Halt::end(double time) {
+  if (!halted()) return;
+  state_ = State::told;
+  last_ = time;
+}
+
 void Halt::note(const CueEvent& event, bool replaced, double time) {
   const bool stops = event.kind() && family_of(*event.kind()) == Family::halt;
   if (stops && event.stage == CueStage::queued) ++due_;

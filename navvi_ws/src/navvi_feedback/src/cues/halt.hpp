@@ -26,8 +26,9 @@ class Halt {
   void repeat(double time);
   /// The sentence that says "go on" is about to be said.
   void release(const std::string& text);
-  /// "Go on" needs no words: what leads comes again.
-  void end() { state_ = State::free; }
+  /// "Go on" needs no words: what leads comes again. To a person who does not drive then, it is
+  /// owed in words as soon as words lead.
+  void end(double time);
   /// Takes note of what became of these words.
   /// \param replaced  another word of the kind is said instead
   void note(const CueEvent& event, bool replaced, double time);
