@@ -20,14 +20,15 @@ import json, math, sys, time
 import rospy
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Odometry
-from navvi_msgs.msg import Cue, Guidance
+from navvi_msgs.msg import Cue, DriveState, Guidance
 from sensor_msgs.msg import Joy
 
 rospy.init_node("person")
 goal = [float(word) for word in sys.argv[1:3]]
-seen, heard, at = [Guidance()], [], [0.0, 0.0]
+seen, heard, at, wheels = [Guidance()], [], [0.0, 0.0], [DriveState()]
 rospy.Subscriber("/navvi/guidance", Guidance, seen.append)
 rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.stage == Cue.STARTED and cue.modality == Cue.SPEECH and heard.append(cue.kind))
+rospy.Subscriber("/navvi/drive_state", DriveState, wheels.append)
 def place(msg):
     at[:] = [msg.pose.pose.position.x, msg.pose.pose.position.y]
 rospy.Subscriber("/robot/odom", Odometry, place)
@@ -38,7 +39,8 @@ def hold(until, seconds, drives=False):
     end = time.monotonic() + seconds
     while time.monotonic() < end and not until():
         now, turn, forward = seen[-1], 0.0, 0.0
-        if drives and now.state == Guidance.FOLLOWING:
+        # After a stop of the wheels, as on a busy machine, the stick has to be released.
+        if drives and now.state == Guidance.FOLLOWING and wheels[-1].state != DriveState.STOPPED:
             turn = max(-0.6, min(0.6, -1.5 * now.steer_angle))
             forward = 0.7 if abs(now.steer_angle) < 0.4 else 0.0
         stick.publish(Joy(axes=[turn, forward], buttons=[0, 0]))
