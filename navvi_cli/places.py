@@ -1,4 +1,5 @@
 """Where things are; nothing else names a place."""
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -26,3 +27,7 @@ def program(package, name):
 
 def script(package, name):
     return WORKSPACE / "src" / package / "scripts" / name if WORKSPACE else program(package, name)
+
+
+# What the packages have in Python is imported as it is.
+sys.path[1:1] = [str(share(package) / "python") for package in ("navvi_people", "navvi_study")]

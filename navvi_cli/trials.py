@@ -1,9 +1,9 @@
 """What a trial left in its folder."""
 import csv
 from pathlib import Path
-from urllib.parse import unquote
 
-from .places import NAVVI
+from .places import NAVVI  # first, as it says where the next one is
+from navvi_study.record import Record  # noqa: E402
 from .say import fail
 
 # What a person reads at a session's end; all of it by ./navvi show.
@@ -27,15 +27,8 @@ def written_since(begin, out):
 
 def conditions(folder):
     """The fields of the journal's TRIAL_START by name; its settings, such as nav/mesh/climb, as `settings` by theirs."""
-    fields = {}
-    try:
-        with open(Path(folder) / "journal.csv", newline="", errors="replace") as file:
-            row = next((row for row in csv.reader(file) if "TRIAL_START" in row), [])
-    except OSError:  # as in a folder that holds a bag alone
-        row = []
-    if row:
-        fields = dict(pair.split("=", 1) for pair in row[row.index("TRIAL_START") + 1].split(";") if "=" in pair)
-    fields = {name: unquote(value) for name, value in fields.items()}
+    start = Record(Path(folder)).first("TRIAL_START")
+    fields = dict(start.fields) if start else {}  # of a folder that holds a bag alone
     fields["settings"] = dict(word.split("=", 1) for word in fields.get("settings", "").split(" ") if "=" in word)
     return fields
 
@@ -43,13 +36,8 @@ def conditions(folder):
 def times(folder, since_start=True):
     """s of each row of the journal, by type; since the trial began, or as the ROS time it was."""
     found = {}
-    try:
-        with open(Path(folder) / "journal.csv", newline="", errors="replace") as file:
-            for row in csv.reader(file):
-                if len(row) == 7 and row[2].isdigit():
-                    found.setdefault(row[4], []).append(int(row[2]) / 1e9)
-    except OSError:  # as in a folder that holds a bag alone
-        return {}
+    for row in Record(Path(folder)).rows:
+        found.setdefault(row.type, []).append(row.sim_ns / 1e9)
     begun = found.get("TRIAL_START", [0.0])[0] if since_start else 0.0
     return {kind: [time - begun for time in moments] for kind, moments in found.items()}
 

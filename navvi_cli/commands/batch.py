@@ -19,7 +19,6 @@ Examples
 ./navvi batch --worlds=busy --seeds=1-20 --people=able,typical --out=busy
 ./navvi batch --people=drawn:1-20 --conditions=default,words_alone --out=drawn
 """
-import sys
 
 from navvi_cli import places
 from navvi_cli.say import fail
@@ -43,7 +42,6 @@ def arguments(parser):
 
 def run(args):
     from navvi_cli.workspace import enter, tool
-    sys.path[:0] = [str(places.share(package) / "python") for package in ("navvi_people", "navvi_study")]
     from navvi_people import batch
     from navvi_study.table import figures
     for world in args.worlds.split(","):

@@ -6,17 +6,13 @@ Exit codes
 0: it is done. 1: it broke off. 2: a wrong argument, or a wrong plan.
 """
 import os
-import sys
 from types import SimpleNamespace
 
 from navvi_cli import places
 from navvi_cli.parser import add_actions
 from navvi_cli.say import Failure, fail
-
-sys.path.insert(0, str(places.share("navvi_study") / "python"))
-
-from navvi_study.actions import ACTIONS, TOOLS  # noqa: E402  (found by the path above)
-from navvi_study.errors import StudyError  # noqa: E402
+from navvi_study.actions import ACTIONS, TOOLS
+from navvi_study.errors import StudyError
 
 
 def arguments(parser):
