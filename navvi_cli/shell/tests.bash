@@ -81,6 +81,7 @@ sanitized_tests() {
   # Libraries that are not ours keep memory to the end of the program.
   export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1:strict_string_checks=1
   export UBSAN_OPTIONS=print_stacktrace=1
+  export NAVVI_FUZZ=${NAVVI_FUZZ:-3000}
   with_progress "testing with sanitizers" "$log" tests_percent ctest -j"$((2 * $(nproc)))" "${selected[@]}" --output-on-failure --output-junit "$results.xml" || true
   echo "The output of the tests is in $log."
   /usr/bin/python3 "$root/test/count_results.py" "$results.xml" "$results"

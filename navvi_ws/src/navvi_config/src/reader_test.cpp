@@ -125,6 +125,12 @@ TEST(Reader, an_error_cites_no_more_of_a_file_than_tells_which_value_is_meant) {
   }
 }
 
+TEST(Reader, a_refusal_cites_no_control_character) {
+  const std::string said = refusal("speed: \"\\e[31mred\"");
+  EXPECT_NE(said.find("[31mred"), std::string::npos) << said;
+  EXPECT_EQ(said.find('\x1b'), std::string::npos) << said;
+}
+
 TEST(Reader, a_missing_file_and_a_broken_file_are_told_apart) {
   EXPECT_THROW((void)load_yaml("/nonexistent.yaml"), ConfigError);
   EXPECT_EQ(refusal_of_file("a: 1\n  b: 2\n"), "line 2: this is not YAML: illegal map value.");

@@ -71,7 +71,7 @@ Header read_header(const std::string& path, const std::string& bytes) {
     } else if (key == "size") {
       out.nodes = value;
     } else {
-      throw FileError(path + ": the header has a line \"" + key.substr(0, 40) +
+      throw FileError(path + ": the header has a line \"" + printable(key) +
                       "\"; id, size, res and data are allowed");
     }
   }

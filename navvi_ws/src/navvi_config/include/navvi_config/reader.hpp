@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <navvi_files/printable.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -17,7 +18,8 @@ namespace navvi_config {
 /// A sentence that names the source, the key and what is allowed.
 class ConfigError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ConfigError(const std::string& sentence)
+      : std::runtime_error(navvi_files::printable(sentence, true)) {}
 };
 
 using Describe = std::function<void(Visitor&)>;

@@ -161,8 +161,12 @@ def bytes_of(text):
     return text.encode(errors="surrogateescape")
 
 
-def number_of(line):
-    return int(line.partition(",")[0])
+def number_of(line, path):
+    try:
+        return int(line.partition(",")[0])
+    except ValueError:
+        raise BatchError(f"{path} has a line that begins with \"{line[:20]}\"; allowed is the number of a trial. Take the line out: its trial is "
+                         "run again.") from None
 
 
 def done_in(folder):
@@ -170,7 +174,7 @@ def done_in(folder):
     rows = {}
     for path in sorted(folder.glob("rows-*.csv")):
         for line in read(path).split("\n")[:-1]:
-            rows.setdefault(number_of(line), line + "\n")
+            rows.setdefault(number_of(line, path), line + "\n")
     return rows
 
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <navvi_files/printable.hpp>
 #include <navvi_types/thing.hpp>
 #include <sstream>
 #include <string>
@@ -21,12 +22,7 @@ namespace navvi_sim {
   return text;
 }
 
-/// Names reach terminals and tables: a control character becomes a blank.
-[[nodiscard]] inline std::string printable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  return text;
-}
+using navvi_files::printable;
 
 /// What others wrote may be long: a sentence shows its beginning.
 [[nodiscard]] inline std::string shortened(const std::string& text, std::size_t most = 120) {

@@ -86,7 +86,7 @@ class Journal:
         try:
             row = json.loads(line)
             good = row["seq"] == number and row["before"] == (self._known[-1]["hash"] if self._known else BEGIN) and row["hash"] == hash_of(row)
-        except (ValueError, KeyError, TypeError):
+        except (ValueError, KeyError, TypeError, RecursionError):
             good = False
         if not good:
             raise StudyError(f"{self.path}:{number}: the row was damaged, changed, or one before it was taken away; restore the file from a copy.")

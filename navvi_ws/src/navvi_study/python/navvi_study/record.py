@@ -1,6 +1,7 @@
 """One trial's own record, as trial_node left it: doc/record.md defines its rows."""
 import ast
 import bisect
+import re
 import struct
 from dataclasses import dataclass
 from urllib.parse import unquote
@@ -37,8 +38,8 @@ class Record:
         return [row for row in self.rows if row.type == kind]
 
     def onset(self, row):
-        """s of simulated time since the trial began."""
-        return (row.sim_ns - self.first("TRIAL_START").sim_ns) / 1e9
+        """s of simulated time since the trial began, or since the first row where its beginning is lost."""
+        return (row.sim_ns - (self.first("TRIAL_START") or self.rows[0]).sim_ns) / 1e9
 
     def onset_of(self, mono_ns):
         """The same for a time of the monotonic clock, such as a mark's, by the rows before and after it; None without a trial."""
@@ -64,28 +65,32 @@ class Record:
         return [(self.onset(row), row.fields.get("modality", "n/a"), row.fields.get("kind", "n/a"), row.fields.get("text", "")) for row in self.of("CUE")]
 
     def track(self):
-        """How robot and person moved, 50 rows a second, each a value by name; doc/record.md has their units. none without a track."""
+        """How robot and person moved, 50 rows a second, each a value by name; doc/record.md has their units. none without a track, or
+        with one that is damaged from its beginning."""
         try:
-            data = (self.folder / "track.npy").read_bytes()
-        except OSError:
+            return _track((self.folder / "track.npy").read_bytes())
+        except (OSError, ValueError, SyntaxError, LookupError, TypeError, ArithmeticError, RecursionError, MemoryError, struct.error):
             return []
-        size = 10 + int.from_bytes(data[8:10], "little")
-        fields = ast.literal_eval(data[10:size].decode())["descr"]
-        row = struct.Struct("<" + "".join(FORMATS.get(kind) or kind[1:] + "s" for _, kind in fields))
-        names = [name for name, _ in fields]
-        rows = [dict(zip(names, values)) for values in row.iter_unpack(data[size:len(data) - (len(data) - size) % row.size])]
-        # What a loss of power took out of the middle reads as zeros.
-        ends = (at for at, one in enumerate(rows) if one["time"] <= (rows[at - 1]["time"] if at else 0.0))
-        return rows[:next(ends, None)]
 
     def events(self):
         """Rows of events.csv, by column; none where there is no such file."""
         return rows_of(self.folder / "events.csv")
 
 
+def _track(data):
+    size = 10 + int.from_bytes(data[8:10], "little")
+    fields = ast.literal_eval(data[10:size].decode())["descr"]
+    row = struct.Struct("<" + "".join(FORMATS.get(kind) or kind[1:] + "s" for _, kind in fields))
+    names = [name for name, _ in fields]
+    rows = [dict(zip(names, values)) for values in row.iter_unpack(data[size:len(data) - (len(data) - size) % row.size])]
+    # What a loss of power took out of the middle reads as zeros.
+    ends = (at for at, one in enumerate(rows) if one["time"] <= (rows[at - 1]["time"] if at else 0.0))
+    return rows[:next(ends, None)]
+
+
 def _row(line):
     cells = line.split(",")
-    if len(cells) != 7 or not cells[2].lstrip("-").isdigit():
+    if len(cells) != 7 or not all(re.fullmatch("-?[0-9]{1,19}", cell) for cell in cells[2:4]):
         return None
     fields = dict(pair.split("=", 1) for pair in cells[5].split(";") if "=" in pair)
     return Row(cells[4], int(cells[2]), int(cells[3]), {name: unquote(value) for name, value in fields.items()})

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <navvi_files/printable.hpp>
 #include <navvi_types/angles.hpp>
 #include <navvi_types/scenario.hpp>
 #include <navvi_types/thing.hpp>
@@ -91,7 +92,8 @@ struct WorldDescription {
 /// A sentence that says which file or thing is wrong, what is wrong with it, and what is allowed.
 class WorldError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit WorldError(const std::string& sentence)
+      : std::runtime_error(navvi_files::printable(sentence, true)) {}
 };
 
 /// A thing with a route at one instant.
