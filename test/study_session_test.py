@@ -125,7 +125,7 @@ def test_the_figures_of_a_trial_are_those_that_are_counted_in_its_journal(done):
         assert 0.9 * float(row["path_length_m"]) <= chords <= float(row["path_length_m"]) + 0.1
 
 
-def test_the_page_on_pandas_reads_tables_and_bag(done):
+def test_the_page_on_pandas_reads_tables_and_track(done):
     page = (ROOT / "doc/study.md").read_text().split("```python\n")[1].split("```")[0]
     assert len(page.splitlines()) <= 30
     shell = f"source {ROOT}/navvi_ws/devel/setup.bash && exec /usr/bin/python3 -c \"$1\""

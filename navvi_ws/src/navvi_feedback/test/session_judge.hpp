@@ -168,8 +168,8 @@ class SessionJudge {
       const auto said = said_.find(event.text);
       static const std::set<CueKind> news = {
           CueKind::blocked,   CueKind::go_on,       CueKind::turn_now,    CueKind::obstacle_comes,
-          CueKind::make_room, CueKind::new_route,   CueKind::way_blocked, CueKind::rerouted,
-          CueKind::start,     CueKind::toward_goal, CueKind::goal_seen};
+          CueKind::make_room, CueKind::new_route,   CueKind::rerouted,    CueKind::start,
+          CueKind::toward_goal, CueKind::goal_seen};
       const bool reminds = known.cue.priority <= Priority::text || event.kind() == CueKind::stuck ||
                            event.kind() == CueKind::back_away ||
                            event.kind() == CueKind::release_stick;

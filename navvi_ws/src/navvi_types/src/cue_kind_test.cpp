@@ -13,7 +13,8 @@ TEST(Content, has_a_word_of_its_own_that_leads_back_to_it) {
     EXPECT_TRUE(words.insert(to_string(content)).second) << to_string(content);
     EXPECT_EQ(from_word<Content>(to_string(content)), content) << to_string(content);
   }
-  for (const char* word : {"collision_shelf", "wall_near", "no_route", "start", "start_distance"})
+  for (const char* word : {"collision_shelf", "wall_near", "no_route", "start", "start_distance",
+                           "straight_then", "where_goal", "way_blocked", "goal_chosen", "no_goal"})
     EXPECT_EQ(words.count(word), 1U) << word;
   EXPECT_EQ(from_word<Content>("near"), Content(CueKind::near)) << "all that may be near";
   for (const char* word : {"", "*", "none", "shelf", "menu_shelf", "shelf_stuck"})

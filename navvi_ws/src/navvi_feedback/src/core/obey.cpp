@@ -69,18 +69,18 @@ std::optional<cues::Utterance> Guide::Parts::heed_planner(const Observation& now
   chosen->left -= dt;
   if (!answered && chosen->left > 0.0) return std::nullopt;
   const cues::Utterance words = std::exchange(chosen, std::nullopt)->words;
-  if (!answered) return cues::Utterance{CueKind::menu_closed};
+  if (!answered) return cues::Utterance{{CueKind::menu_closed, About::menu_closed}};
   // Why there is no way is told by itself.
   if (!plan->leads() && plan->state != Guidance::State::arrived) return std::nullopt;
   return words;
 }
 
 cues::Utterance Guide::Parts::remember(const std::optional<Eigen::Vector2d>& at, Output& out) {
-  if (config.places.empty()) return {{CueKind::place, About::no_file}};
-  if (!at) return {{CueKind::place, About::no_pose}};
+  if (config.places.empty()) return {{CueKind::menu_closed, About::place_no_file}};
+  if (!at) return {{CueKind::menu_closed, About::place_no_pose}};
   out.place = menu.remember(*at, phrases);
   if (!out.place) return {CueKind::place_not_saved};
-  cues::Utterance told{{CueKind::place, About::saved}};
+  cues::Utterance told{{CueKind::menu_closed, About::place_saved}};
   told.fillings.place_name = out.place->name;
   return told;
 }

@@ -17,17 +17,17 @@ constexpr double kInsists = 6.0;
 
 /// All of it from the robot's nose, and as the crow flies.
 Utterance where_am_i(const Observation& now, Rounding rounding) {
-  Utterance told;
+  Utterance told{{CueKind::answer, About::where_place}};
   if (now.place) {
     told.fillings.place = static_cast<PlaceName>(now.place->kind);
     told.fillings.number = static_cast<int>(now.place->number);
   }
-  const bool goal = now.goal_angle && now.guidance && now.guidance->leads();
-  if (goal) {
+  if (now.goal_angle && now.guidance && now.guidance->leads()) {
+    told.kind = CueKind::where;
+    told.about = now.place ? About::none : About::goal;
     told.fillings.distance = now.goal_straight;
     told.fillings.hour = clock_hour(*now.goal_angle, rounding).value_or(12);
   }
-  told.kind = !goal ? CueKind::where_place : now.place ? CueKind::where : CueKind::where_goal;
   return told;
 }
 
@@ -41,7 +41,7 @@ std::optional<Utterance> about(Question question, const Tick& tick, Rounding rou
     return stops ? stops : around(now.nearby);
   }
   if (question == Question::help)
-    return Utterance{{CueKind::help, now.devices.keyboard ? About::keys : About::pad}};
+    return Utterance{{CueKind::answer, now.devices.keyboard ? About::help_keys : About::help_pad}};
   if (question == Question::where && (now.place || (to_goal && now.goal_angle)))
     return where_am_i(now, rounding);
   const bool ends = to_goal && now.guidance->ends_short && now.guidance->turn_angle == 0.0;
@@ -63,7 +63,7 @@ std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const
   const Content problem = state.problem().value_or(CueKind::welcome);
   if (problem != CueKind::welcome) return problem_words(problem, tick.now);
   if (tick.age < kFirstPath) return std::nullopt;
-  return problem_words(CueKind::no_goal, tick.now);
+  return problem_words({CueKind::answer, About::no_goal}, tick.now);
 }
 
 }  // namespace

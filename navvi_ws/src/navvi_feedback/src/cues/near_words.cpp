@@ -52,7 +52,7 @@ Utterance around(const std::vector<NearThing>& nearby) {
         best = &thing;
     if (best) nearest.push_back(best);
   }
-  if (nearest.empty()) return {CueKind::around_nothing};
+  if (nearest.empty()) return {{CueKind::answer, About::around_nothing}};
   std::rotate(nearest.begin(), std::min_element(nearest.begin(), nearest.end(), nearer),
               nearest.end());
   std::vector<Utterance> told;

@@ -5,7 +5,7 @@ namespace navvi_feedback::cues {
 Utterances NoticeCues::update(const Tick& tick) {
   Utterances told;
   std::set<Content> notices(tick.now.notices.begin(), tick.now.notices.end());
-  if (tick.asked.menu_closed) notices.insert(CueKind::menu_closed);
+  if (tick.asked.menu_closed) notices.insert({CueKind::menu_closed, About::menu_closed});
   for (const Content& notice : notices) {
     if (noticed_.count(notice) > 0) continue;
     told.push_back({notice});

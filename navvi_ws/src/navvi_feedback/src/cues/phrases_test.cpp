@@ -253,7 +253,8 @@ TEST(Phrases, name_places_with_their_number) {
   EXPECT_EQ(phrases.say({CueKind::menu, About::menu_place}, everything()), "dock 2");
   Fillings task;
   task.place = PlaceName::task;
-  EXPECT_EQ(phrases.say(CueKind::goal_chosen, task), "you are heading for the goal of the task");
+  EXPECT_EQ(phrases.say({CueKind::menu_closed, About::goal_chosen}, task),
+            "you are heading for the goal of the task");
   EXPECT_THROW(static_cast<void>(phrases.say({CueKind::menu, About::menu_place})),
                std::logic_error);
 }
@@ -264,8 +265,8 @@ TEST(Phrases, call_a_place_by_a_name_of_its_own_and_by_no_other_text) {
       for (const char* name : {"gate 4", "a234567890123456789a b23456789012345678b",
                                "a23456789012345678a b234567890123456789b"})
         for (const Content& content :
-             {Content(CueKind::menu, About::menu_place), Content(CueKind::goal_chosen),
-              Content(CueKind::menu, About::goal_sure)}) {
+             {Content(CueKind::menu, About::menu_place), Content(CueKind::menu, About::goal_sure),
+              Content(CueKind::menu_closed, About::goal_chosen)}) {
           Fillings fillings;
           fillings.place_name = name;
           const std::string said = Phrases(language, worded).say(content, fillings);

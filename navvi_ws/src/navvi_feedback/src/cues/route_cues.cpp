@@ -84,7 +84,7 @@ Utterances RouteCues::go_on(const Observation& now, double time) {
   } else if (leg_.routes.news(guidance) && way->kind != CueKind::slight) {
     reroute(*way, look, leg_);
   } else if (const auto turn = turn_within_reach(look); turn && way->fillings.hour == 12) {
-    way = announce(CueKind::straight_then, *way, *turn, look, leg_);
+    way = announce({CueKind::straight, About::then}, *way, *turn, look, leg_);
   }
   way->goes_on = true;
   way->priority = traits(CueKind::go_on).priority;

@@ -11,7 +11,7 @@ namespace navvi_feedback::cues {
 
 /// It tells that there is another route, which explains the next direction.
 [[nodiscard]] constexpr bool tells_route(CueKind kind) {
-  return kind == CueKind::rerouted || kind == CueKind::new_route || kind == CueKind::way_blocked;
+  return kind == CueKind::rerouted || kind == CueKind::new_route;
 }
 /// It tells whether the map shows the goal.
 [[nodiscard]] constexpr bool tells_sight(CueKind kind) {

@@ -197,7 +197,7 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.now.guidance->steer_angle = rad(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::direction});
   drive.cues = told;
-  drive.cues.lost(CueKind::straight_then, drive.time);
+  drive.cues.lost(CueKind::straight, drive.time);
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }
 
@@ -232,8 +232,7 @@ class Person {
 
   Velocity command(double time) {
     if (heard_ && time >= heard_->first) {
-      if (heard_->second.kind == CueKind::straight ||
-          heard_->second.kind == CueKind::straight_then) {
+      if (heard_->second.kind == CueKind::straight) {
         turn_left_ = 0.0;
         drives_ = true;
       } else if (heard_->second.kind != CueKind::turn_ahead) {

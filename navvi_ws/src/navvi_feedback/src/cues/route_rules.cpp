@@ -68,7 +68,7 @@ Utterances tell_way(const Look& look, Leg& leg) {
   Utterance way = *direction(look.guidance(), look.bearing);
   // Without the turn a person drives past it.
   if (const auto turn = turn_within_reach(look); turn && look.hour() == 12)
-    return {announce(CueKind::straight_then, way, *turn, look, leg)};
+    return {announce({CueKind::straight, About::then}, way, *turn, look, leg)};
   // The route changed while the person waited.
   if (!leg.said.hour && leg.routes.news(look.guidance()) && way.kind != CueKind::slight)
     reroute(way, look, leg);
@@ -97,8 +97,8 @@ Utterance make_room_now(const Look& look, Leg& leg) {
   return way;
 }
 
-Utterance announce(CueKind kind, Utterance way, int hour, const Look& look, Leg& leg) {
-  way.kind = kind;
+Utterance announce(const Content& what, Utterance way, int hour, const Look& look, Leg& leg) {
+  static_cast<Content&>(way) = what;
   way.fillings.hour = hour;
   leg.announced(hour, look.time);
   leg.heard(look.hour(), look.time);

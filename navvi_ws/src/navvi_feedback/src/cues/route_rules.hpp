@@ -65,8 +65,9 @@ using Rule = Told (*)(const Look& look, Leg& leg);
 [[nodiscard]] Utterances turn_now(const Look& look, Leg& leg);
 /// It is told with the direction, at any time.
 [[nodiscard]] Utterance make_room_now(const Look& look, Leg& leg);
-/// The turn is announced by words of this kind. \param hour  of the turn
-[[nodiscard]] Utterance announce(CueKind kind, Utterance way, int hour, const Look& look, Leg& leg);
+/// The turn is announced by these words. \param hour  of the turn
+[[nodiscard]] Utterance announce(const Content& what, Utterance way, int hour, const Look& look,
+                                 Leg& leg);
 /// Another route is news, and something blocks the old one.
 [[nodiscard]] bool is_blocked(const Look& look, const Leg& leg);
 /// Makes of the direction that of another route.

@@ -36,7 +36,7 @@ TEST(RouteRules, name_the_turn_where_straight_ahead_alone_would_lead_past_it) {
   Drive drive;
   drive.settle(90.0, 3.0);
   drive.now.guidance = following(0.0, 3.0);
-  EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::straight_then});
+  EXPECT_EQ(drive.pass(2.0), (Kinds{{CueKind::straight, About::then}}));
   EXPECT_EQ(drive.last.fillings.hour, 3);
   EXPECT_EQ(drive.pass(10.0), Kinds{}) << "the turn was announced";
 }

@@ -27,7 +27,8 @@ Told tell_route(const Look& look, Leg& leg) {
   leg.news = Leg::News::none;
   if (!leg.routes.news(look.guidance())) return Utterances{};
   Utterance way = *direction(look.guidance(), look.bearing);
-  way.kind = is_blocked(look, leg) ? CueKind::way_blocked : CueKind::new_route;
+  way.kind = CueKind::new_route;
+  way.about = is_blocked(look, leg) ? About::way_blocked : About::new_route;
   leg.routes.tell(look.guidance().reroutes);
   return Utterances{way};
 }

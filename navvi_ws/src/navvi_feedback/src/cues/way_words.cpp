@@ -36,16 +36,13 @@ Utterance start_words(const Observation& now, Rounding rounding) {
 }
 
 Utterance goal_words(CueKind kind, const Observation& now, Rounding rounding) {
-  Utterance goal{kind};
-  if (now.goal_angle) goal.fillings.hour = clock_hour(*now.goal_angle, rounding);
-  // The path ends before the goal: how long it is tells nothing of that.
-  const bool beyond = now.guidance->ends_short;
-  goal.fillings.distance = beyond ? now.goal_straight : std::max(0.0, now.guidance->goal_distance);
-  if (beyond)
-    goal.kind = goal.fillings.hour ? CueKind::where_goal : CueKind::toward_goal;
-  else if (!goal.fillings.hour)
-    goal.about = About::distance;
-  return goal;
+  const auto hour = now.goal_angle ? clock_hour(*now.goal_angle, rounding) : std::nullopt;
+  // Where the path ends before the goal, its length tells nothing of that.
+  if (!now.guidance->ends_short)
+    return {{kind, hour ? About::none : About::distance},
+            {hour, std::max(0.0, now.guidance->goal_distance)}};
+  const Content seen_from_here = hour ? Content(CueKind::where, About::goal) : CueKind::toward_goal;
+  return {seen_from_here, {hour, now.goal_straight}};
 }
 
 }  // namespace navvi_feedback::cues

@@ -41,7 +41,7 @@ Told end_turn(const Look& look, Leg& leg) {
   straight.fillings.hour = 12;
   straight.priority = Priority::message;
   if (const auto turn = turn_within_reach(look))
-    straight = announce(CueKind::straight_then, straight, *turn, look, leg);
+    straight = announce({CueKind::straight, About::then}, straight, *turn, look, leg);
   leg.heard(12, look.time);
   return Utterances{straight};
 }

@@ -105,7 +105,7 @@ std::optional<std::size_t> Menu::place_of_told(const std::vector<Entry>& list) c
 }
 
 Menu::Step Menu::tell() {
-  if (path_.empty()) return {cues::Utterance{CueKind::menu_closed}};
+  if (path_.empty()) return {cues::Utterance{{CueKind::menu_closed, About::menu_closed}}};
   const std::vector<Entry> list = entries(path_.back());
   if (list.empty()) return {cues::Utterance{entry(About::menu_empty)}};
   path_.back().told = list[place_of_told(list).value_or(0)];
@@ -128,7 +128,7 @@ Menu::Step Menu::choose(const Entry& entry) {
   step.remember = entry.remember;
   if (entry.goal) {
     step.goal = entry.goal->at;
-    step.told = entry.goal->say(CueKind::goal_chosen);
+    step.told = entry.goal->say({CueKind::menu_closed, About::goal_chosen});
   } else if (!entry.request && !entry.glossary && !entry.remember) {
     return tell();
   }
@@ -176,7 +176,7 @@ Menu::Step Menu::obey(drive::Button button) {
   const bool just_begun = trial_ == TrialState::State::running && in_state_ < kTwice;
   if (button == Button::start && just_begun && path_.empty()) return {};
   if (button == Button::end && !ending) {
-    if (trial_ != TrialState::State::running) return {cues::Utterance{CueKind::no_trial}};
+    if (trial_ != TrialState::State::running) return {cues::Utterance{entry(About::no_trial)}};
     path_ = {{}, {List::end}};
     return tell();
   }

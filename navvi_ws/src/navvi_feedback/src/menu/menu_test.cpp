@@ -46,7 +46,7 @@ TEST_F(MenuTest, leads_to_a_goal_by_short_presses_of_one_hand) {
   const Menu::Step chosen = press({Button::choose});
   ASSERT_TRUE(chosen.goal);
   EXPECT_EQ(chosen.goal->x(), 5.0);
-  EXPECT_EQ(chosen.told->kind, CueKind::goal_chosen);
+  EXPECT_EQ(chosen.told->about, About::goal_chosen);
   EXPECT_FALSE(menu_.open());
 }
 
@@ -99,7 +99,7 @@ TEST_F(MenuTest, changes_the_goal_of_a_running_trial_only_when_asked_twice) {
   step = press({Button::choose});
   ASSERT_TRUE(step.goal);
   EXPECT_EQ(step.goal->x(), 3.0);
-  EXPECT_EQ(step.told.value().kind, CueKind::goal_chosen);
+  EXPECT_EQ(step.told.value().about, About::goal_chosen);
 }
 
 TEST_F(MenuTest, asks_for_no_goal_twice_once_the_trial_is_over) {
@@ -212,7 +212,7 @@ TEST_F(MenuTest, offers_the_places_of_a_file_by_their_names) {
   EXPECT_EQ(step.told.value().fillings.place_name, "gate 4");
   step = menu.press(Button::choose);
   EXPECT_EQ(step.goal.value(), Eigen::Vector2d(-3.0, 4.0));
-  EXPECT_EQ(step.told.value().kind, CueKind::goal_chosen);
+  EXPECT_EQ(step.told.value().about, About::goal_chosen);
   EXPECT_EQ(step.told.value().fillings.place_name, "gate 4");
 }
 
@@ -246,7 +246,7 @@ TEST_F(MenuTest, has_nothing_to_choose_where_nothing_is_known) {
   menu.take(TrialState{State::preparing});
   EXPECT_EQ(menu.press(Button::next).told.value().about, About::menu_empty);
   EXPECT_EQ(menu.press(Button::choose).told.value().about, About::menu_empty);
-  EXPECT_EQ(menu.press(Button::back).told.value().kind, CueKind::menu_closed);
+  EXPECT_EQ(menu.press(Button::back).told.value().about, About::menu_closed);
 }
 
 TEST_F(MenuTest, opens_at_the_settings_from_wherever_it_is) {

@@ -19,8 +19,8 @@ using navvi_types::CueKind;
 
 /// The menu is closed, by itself or by what was chosen.
 bool closes(CueKind kind) {
-  return family_of(kind) == CueFamily::menu_end || kind == CueKind::goal_refused ||
-         kind == CueKind::lesson;
+  return kind == CueKind::menu_closed || kind == CueKind::place_not_saved ||
+         kind == CueKind::goal_refused || kind == CueKind::lesson;
 }
 
 Shown::Tone tone_of(CueKind kind) {

@@ -27,14 +27,13 @@ enum class CueKind : std::uint8_t {
   // What the person must act on now.
   stuck, stuck_unknown, arrived, turn_now, no_way, off_mesh, blocked, obstacle_comes, back_away,
   go_on, make_room, goal_refused, release_stick, hold_to_drive, notice, assisted, pad_back, back,
-  proximity_back, sides_wrong, which_side, press, choose_goal, trial_begins, goal_chosen, menu,
-  menu_closed, no_trial, settings, place, place_not_saved, trial_ends,
+  proximity_back, sides_wrong, which_side, press, choose_goal, trial_begins, menu, menu_closed,
+  settings, place_not_saved, trial_ends,
   // The way.
-  start, toward_goal, goal_seen, direction, straight, slight, straight_then, turn_ahead, wrong_way,
-  off_path, turn_cancelled, push, rerouted, new_route, way_blocked, near, close,
-  // On demand, and by the way.
-  goal_info, no_goal, around, stops_before, where, where_place, where_goal, help, help_menu,
-  around_nothing, welcome,
+  start, toward_goal, goal_seen, direction, straight, slight, turn_ahead, wrong_way, off_path,
+  turn_cancelled, push, rerouted, new_route, near, close,
+  // On demand, and by the way; an answer stays true while it waits to be spoken.
+  goal_info, around, stops_before, where, answer, help_menu, welcome,
   // Not in the phrases: a sentence of a lesson has a key of its own.
   lesson,
 };
@@ -48,14 +47,17 @@ enum class About : std::uint8_t {
   not_finite, unknown_frame, inside_obstacle, off_the_map, unreachable, not_seen,
   intruder, machine_slow, pad_late, battery_low, connection_slow, two_drivers, no_rumble,
   second_pad, pad_firmware,
-  start, enter, keys,
+  start, enter,
   goal_sure, menu_begin, menu_goals, menu_place, menu_glossary, menu_remember, menu_end,
-  menu_end_sure, menu_empty, menu_settings, setting, setting_open, setting_changed,
-  of, not_kept, not_saved, saved, no_file, no_pose,
+  menu_end_sure, menu_empty, menu_settings, setting, setting_open, setting_changed, no_trial,
+  menu_closed, goal_chosen, place_saved, place_no_file, place_no_pose,
+  of, not_kept, not_saved,
   time_up, over,
-  distance, side, blocked,
+  distance, side, blocked, then, goal,
+  new_route, way_blocked,
+  no_goal, around_nothing, where_place, help_pad, help_keys,
 };
-[[nodiscard]] constexpr std::array<const char*, 57> names(About) {
+[[nodiscard]] constexpr std::array<const char*, 68> names(About) {
   return {"",
           "shelf", "wall", "obstacle",
           "pad", "keyboard", "simulator", "odometry", "audio", "connection", "picture",
@@ -63,13 +65,16 @@ enum class About : std::uint8_t {
           "not_finite", "unknown_frame", "inside_obstacle", "off_the_map", "unreachable", "not_seen",
           "intruder", "machine_slow", "pad_late", "battery_low", "connection_slow", "two_drivers",
           "no_rumble", "second_pad", "pad_firmware",
-          "start", "enter", "keys",
+          "start", "enter",
           "goal_sure", "menu_begin", "menu_goals", "menu_place", "menu_glossary", "menu_remember",
           "menu_end", "menu_end_sure", "menu_empty", "menu_settings", "setting", "setting_open",
-          "setting_changed",
-          "of", "not_kept", "not_saved", "saved", "no_file", "no_pose",
+          "setting_changed", "no_trial",
+          "menu_closed", "goal_chosen", "place_saved", "place_no_file", "place_no_pose",
+          "of", "not_kept", "not_saved",
           "time_up", "over",
-          "distance", "side", "blocked"};
+          "distance", "side", "blocked", "then", "goal",
+          "new_route", "way_blocked",
+          "no_goal", "around_nothing", "where_place", "help_pad", "help_keys"};
 }
 // clang-format on
 
@@ -81,7 +86,6 @@ enum class CueFamily : std::uint8_t {
   way,        ///< a direction that the person may do without
   route,      ///< a direction that they may not do without
   trial_end,  ///< why a trial is over
-  menu_end,   ///< the menu is closed
 };
 
 /// The answer of the hands that a cue asks for.
@@ -111,7 +115,7 @@ struct CueTraits {
   Ask ask = Ask::nothing;
   bool shown = false;  ///< some seconds in the banner, as what it is about lasts no longer
   std::optional<Pattern> felt = {};   ///< the motors' pattern that begins with it
-  std::array<About, 13> about = {};  ///< all that it can be about; none, but the first, ends the list
+  std::array<About, 14> about = {};   ///< all that it can be about; none, but the first, ends it
 };
 
 namespace cue_table {
@@ -180,18 +184,15 @@ inline constexpr CueTraits kRows[] = {
     {K::choose_goal, "choose_goal", P::message, 2.0, 5.0},
     {K::trial_begins, "trial_begins", P::message, 1.0, 2.0, F::other, A::nothing, false,
      T::begun},
-    {K::goal_chosen, "goal_chosen", P::message, 0.0, 4.0, F::menu_end},
     {K::menu, "*", P::message, 0.0, 4.0, F::other, A::nothing, false, {},
      {B::goal_sure, B::menu_begin, B::menu_goals, B::menu_place, B::menu_glossary, B::menu_remember,
       B::menu_end, B::menu_end_sure, B::menu_empty, B::menu_settings, B::setting, B::setting_open,
-      B::setting_changed}},
-    {K::menu_closed, "menu_closed", P::message, 0.0, 4.0, F::menu_end},
-    {K::no_trial, "no_trial", P::message, 0.0, 4.0},
+      B::setting_changed, B::no_trial}},
+    {K::menu_closed, "*", P::message, 0.0, 4.0, F::other, A::nothing, false, {},
+     {B::menu_closed, B::goal_chosen, B::place_saved, B::place_no_file, B::place_no_pose}},
     {K::settings, "settings_*", P::message, 1.0, 10.0, F::other, A::nothing, false, {},
      {B::of, B::not_kept, B::not_saved}},
-    {K::place, "place_*", P::message, 0.0, 4.0, F::menu_end, A::nothing, false, {},
-     {B::saved, B::no_file, B::no_pose}},
-    {K::place_not_saved, "place_not_saved", P::message, 0.0, 10.0, F::menu_end},
+    {K::place_not_saved, "place_not_saved", P::message, 0.0, 10.0},
     {K::trial_ends, "trial_*", P::message, 5.0, 10.0, F::trial_end, A::nothing, true, {},
      {B::time_up, B::over}},
     // The way.
@@ -200,9 +201,8 @@ inline constexpr CueTraits kRows[] = {
     {K::toward_goal, "toward_goal", P::text, 0.0, 10.0, F::other, A::ready},
     {K::goal_seen, "goal_seen", P::text, 0.0, 10.0, F::other, A::ready},
     {K::direction, "direction", P::text, 1.0, 1.0, F::way, A::turn},
-    {K::straight, "straight", P::text, 1.0, 1.0, F::way, A::go},
+    {K::straight, "straight_*", P::text, 1.0, 1.0, F::way, A::go, false, {}, {B::none, B::then}},
     {K::slight, "slight", P::text, 1.0, 1.0, F::way, A::turn},
-    {K::straight_then, "straight_then", P::text, 1.0, 1.0, F::way, A::go},
     {K::turn_ahead, "turn_ahead", P::text, 2.0, 1.0, F::way, A::turn_ahead},
     {K::wrong_way, "wrong_way", P::message, 2.0, 1.0, F::route, A::turn},
     {K::off_path, "off_path", P::text, 2.0, 1.0, F::route},
@@ -210,9 +210,8 @@ inline constexpr CueTraits kRows[] = {
     {K::push, "push", P::text, 2.0, 1.0, F::way, A::go},
     {K::rerouted, "rerouted_*", P::text, 4.0, 1.0, F::route, A::turn, false, T::rerouted,
      {B::none, B::blocked}},
-    {K::new_route, "new_route", P::message, 4.0, 1.0, F::other, A::nothing, false, T::rerouted},
-    {K::way_blocked, "way_blocked", P::message, 4.0, 1.0, F::other, A::nothing, false,
-     T::rerouted},
+    {K::new_route, "*", P::message, 4.0, 1.0, F::other, A::nothing, false, T::rerouted,
+     {B::new_route, B::way_blocked}},
     {K::near, "*_near", P::text, 1.5, 1.0, F::other, A::beware, false, {},
      {B::shelf, B::wall, B::obstacle}},
     {K::close, "*_close", P::text, 1.5, 1.0, F::other, A::beware, false, {},
@@ -220,16 +219,13 @@ inline constexpr CueTraits kRows[] = {
     // On demand, and by the way.
     {K::goal_info, "goal_info_*", P::text, 0.5, 1.0, F::other, A::nothing, false, {},
      {B::none, B::distance}},
-    {K::no_goal, "no_goal", P::text, 0.5, 4.0},
     {K::around, "around_*", P::text, 0.5, 1.0, F::other, A::nothing, false, {},
      {B::none, B::side}},
     {K::stops_before, "stops_before", P::text, 0.5, 1.0},
-    {K::where, "where", P::text, 0.5, 1.0},
-    {K::where_place, "where_place", P::text, 0.5, 4.0},
-    {K::where_goal, "where_goal", P::text, 0.5, 1.0},
-    {K::help, "help_*", P::text, 0.5, 4.0, F::other, A::nothing, false, {}, {B::pad, B::keys}},
+    {K::where, "where_*", P::text, 0.5, 1.0, F::other, A::nothing, false, {}, {B::none, B::goal}},
+    {K::answer, "*", P::text, 0.5, 4.0, F::other, A::nothing, false, {},
+     {B::no_goal, B::around_nothing, B::where_place, B::help_pad, B::help_keys}},
     {K::help_menu, "help_menu", P::text, 0.5, 8.0},
-    {K::around_nothing, "around_nothing", P::text, 0.5, 4.0},
     {K::welcome, "welcome", P::notification, 5.0, 10.0},
     // A lesson's.
     {K::lesson, "lesson", P::message, 0.0, 20.0},
