@@ -137,9 +137,9 @@ class FarNetwork(Network):
             fail(f"somebody drives this robot already: {' and '.join(sorted(taken))} run; one person at a time is allowed.", 2)
         self.enter()
 
-    def has_own_clock(self):
-        """A simulator publishes /clock; a real robot's time comes by /navvi/clock."""
-        return self.master.getParam("/navvi", "/use_sim_time")[2] is True
+    def clock(self):
+        """The topic with the robot's time, that of a simulator or of a real robot."""
+        return "/clock" if self.master.getParam("/navvi", "/use_sim_time")[2] is True else "/navvi/clock"
 
 
 def is_ours(port):

@@ -82,7 +82,7 @@ def far_session(given):
     prepare(words, ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])], [FEEDBACK], check_parameters)
     network = FarNetwork(where)
     words["patience"] = "300"  # over a slow connection nodes take their time to meet
-    words["robot_time"] = str(not network.has_own_clock()).lower()
+    words["clock"] = network.clock()
     begin = time.time_ns()
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
     announce(words, log, network, f"the robot at {where}")

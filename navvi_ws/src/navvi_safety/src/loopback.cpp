@@ -1,10 +1,13 @@
 // Preloaded into every process of a session: a socket that would listen on all interfaces listens
 // at the address ROS_IP alone, such as that of a tunnel, or on the loopback interface. roscpp offers
-// no setting for its XML-RPC port. And each ends with roslaunch, ROS's own programs too.
+// no setting for its XML-RPC port. No small message waits for the acknowledgement of the last one,
+// which takes a round trip: ROS leaves that to each subscriber, and its own /clock and calls of the
+// master have no setting. And each ends with roslaunch, ROS's own programs too.
 
 #include <arpa/inet.h>
 #include <dlfcn.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <cstdlib>
@@ -21,23 +24,39 @@ in_addr own_address() {
   return address;
 }
 
+/// The function of that name that this library stands in front of.
+template <typename Function>
+Function next(const char* name) {
+  return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
+}
+
 }  // namespace
 
+/// What it accepts later inherits the option.
+extern "C" int socket(int domain, int type, int protocol) noexcept {
+  static const auto make = next<int (*)(int, int, int)>("socket");
+  const int made = make(domain, type, protocol);
+  const int on = 1;
+  const bool internet = domain == AF_INET || domain == AF_INET6;
+  if (made >= 0 && internet && (type & 0xf) == SOCK_STREAM)
+    setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  return made;
+}
+
 extern "C" int bind(int socket, const sockaddr* address, socklen_t length) noexcept {
-  using Bind = int (*)(int, const sockaddr*, socklen_t);
-  static const auto next = reinterpret_cast<Bind>(dlsym(RTLD_NEXT, "bind"));
+  static const auto own = next<int (*)(int, const sockaddr*, socklen_t)>("bind");
   if (address != nullptr && address->sa_family == AF_INET && length >= sizeof(sockaddr_in)) {
     sockaddr_in local;
     std::memcpy(&local, address, sizeof(local));
     if (local.sin_addr.s_addr == htonl(INADDR_ANY)) local.sin_addr = own_address();
-    return next(socket, reinterpret_cast<const sockaddr*>(&local), sizeof(local));
+    return own(socket, reinterpret_cast<const sockaddr*>(&local), sizeof(local));
   }
   if (address != nullptr && address->sa_family == AF_INET6 && length >= sizeof(sockaddr_in6)) {
     sockaddr_in6 local;
     std::memcpy(&local, address, sizeof(local));
     if (std::memcmp(&local.sin6_addr, &in6addr_any, sizeof(in6_addr)) == 0)
       local.sin6_addr = in6addr_loopback;
-    return next(socket, reinterpret_cast<const sockaddr*>(&local), sizeof(local));
+    return own(socket, reinterpret_cast<const sockaddr*>(&local), sizeof(local));
   }
-  return next(socket, address, length);
+  return own(socket, address, length);
 }

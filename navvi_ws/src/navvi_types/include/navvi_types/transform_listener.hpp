@@ -79,7 +79,8 @@ class TransformListener {
         receive(event, fixed);
       };
       return node_.subscribe<tf2_msgs::TFMessage>(topic, kQueue, take, ros::VoidConstPtr(),
-                                                  ros::TransportHints().tcpNoDelay());
+                                                  fixed ? ros::TransportHints().tcpNoDelay()
+                                                        : steady_transport());
     };
     moving_ = listen("/tf", false);
     fixed_ = listen("/tf_static", true);
