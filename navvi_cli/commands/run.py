@@ -23,6 +23,7 @@ from navvi_cli.session import Launch, accepted, check_operator, check_parameters
 from navvi_cli.worlds import Verdict, check_name
 
 FEEDBACK = program("navvi_feedback", "feedback_node")
+PLACES = ("places", "jobs")  # arguments that name such a file
 PERSON = ["robot:=HOST: drive what \"./navvi robot start\" runs on another machine.",
           "person:=NAME: whose settings are used, from ~/.navvi/people/NAME.yaml, and kept there when they are changed in the menu; a new name "
           "begins a new file.",
@@ -55,7 +56,7 @@ def session(given):
     complete(words)
     check(words)
     targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])]
-    checkers = [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool"), *([FEEDBACK] if words.get("places") else [])]
+    checkers = [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool"), *([FEEDBACK] if any(map(words.get, PLACES)) else [])]
     prepare(words, targets, checkers, check_by_programs)
     network = Network()
     begin = time.time_ns()
@@ -129,8 +130,8 @@ def check(words):
     for name in ("world", "classes"):
         if name in words and Path(words[name]).is_file():
             words[name] = Path(words[name]).resolve()
-    if words.get("places"):
-        words["places"] = Path(words["places"]).resolve()
+    for name in filter(words.get, PLACES):
+        words[name] = Path(words[name]).resolve()
     folders = [folder for folder in words.get("models", "").split(":") if folder]
     for folder in folders:
         if not Path(folder).is_dir():
@@ -142,8 +143,8 @@ def check(words):
 def check_by_programs(words):
     """The nodes would refuse the same, but only when all have started."""
     check_parameters(words)
-    if words.get("places"):
-        accepted("feedback", FEEDBACK, [f"places:={words['places']}"])
+    for name in filter(words.get, PLACES):
+        accepted("feedback", FEEDBACK, [f"places:={words[name]}"])
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
     Verdict(words["world"], [f"config:={config_of('navvi_sim', words['profile'])}", *session, *words.parameters_of("sim")],
             words.parameters_of("nav"), words["profile"]).require()

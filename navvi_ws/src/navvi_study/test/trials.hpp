@@ -43,7 +43,10 @@ class Trials : public testing::Test {
       goals_.push_back(goal.place);
       stamps_.push_back(goal.stamp);
     };
-    outlets.show = [this](TrialState::State state) { shown_.push_back(state); };
+    outlets.show = [this](const TrialState& now) {
+      shown_.push_back(now.state);
+      waits_ = now;
+    };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
     outlets.settings = [this] { return settings_; };
     outlets.start_recorder = [this](const fs::path& bag) {
@@ -134,6 +137,7 @@ class Trials : public testing::Test {
   std::vector<std::int64_t> stamps_;  ///< of these
   std::string said_;
   std::vector<TrialState::State> shown_;
+  TrialState waits_;  ///< shown last
   bool feedback_ = true;    ///< feedback_node reports
   bool elsewhere_ = false;  ///< the robot, where the guide says that it has arrived
   int failures_ = 0;        ///< writes of the journal that are still to fail

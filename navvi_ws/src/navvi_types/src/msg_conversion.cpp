@@ -310,7 +310,9 @@ std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg) {
 
 std::optional<TrialState> from_msg(const navvi_msgs::TrialState& msg) {
   const auto state = from_number<TrialState::State>(msg.state);
-  return state ? std::optional(TrialState{*state, to_ns(msg.header.stamp)}) : std::nullopt;
+  const auto task = from_number<TrialState::Task>(msg.task);
+  if (!state || !task) return std::nullopt;
+  return TrialState{*state, to_ns(msg.header.stamp), msg.place, *task};
 }
 
 std::optional<TrialRequest> from_msg(const navvi_msgs::TrialRequest& msg) {
@@ -464,6 +466,8 @@ navvi_msgs::TrialState to_msg(const TrialState& state) {
   navvi_msgs::TrialState msg;
   msg.header.stamp = from_ns(state.stamp);
   msg.state = static_cast<std::uint8_t>(state.state);
+  msg.place = state.place;
+  msg.task = static_cast<std::uint8_t>(state.task);
   return msg;
 }
 

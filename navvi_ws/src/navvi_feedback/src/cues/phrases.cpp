@@ -27,9 +27,10 @@ const std::set<std::string> kPlaceholders = {
     "direction", "way",   "distance", "thing", "a_thing", "side", "where", "place",
     "setting",   "value", "person",   "stick", "push",    "menu", "more",  "less"};
 /// Words for the hands: one for those on a pad, one for those on the keys.
-const std::set<std::string> kHands = {"stick", "push", "menu", "more", "less"};
+const std::set<std::string> kHands = {"stick", "push", "menu", "more", "less", "begin"};
 /// Phrases whose {place} may have a name of its own: those of the menu.
-const std::set<std::string> kNaming = {"menu_place", "goal_chosen", "goal_sure", "place_saved"};
+const std::set<std::string> kNaming = {"menu_place", "goal_chosen", "goal_sure", "place_saved",
+                                       "press_pick", "press_drop", "press_scan"};
 
 constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};

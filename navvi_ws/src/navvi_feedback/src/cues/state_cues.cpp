@@ -54,6 +54,7 @@ std::optional<Content> problem_of(const Guidance& guidance) {
 Utterance problem_words(const Content& problem, const Observation& now) {
   Utterance told{problem};
   if (now.guidance) told.fillings.thing = now.guidance->blocked_by.value_or(ThingClass::other);
+  if (problem == CueKind::press) told.fillings.place_name = now.reached;
   return told;
 }
 

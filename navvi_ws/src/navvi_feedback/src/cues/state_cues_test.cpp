@@ -28,6 +28,16 @@ TEST_F(StateCuesTest, says_go_at_once_and_not_after_the_words_that_asked_for_the
   EXPECT_TRUE(last_.asked);
 }
 
+TEST_F(StateCuesTest, says_what_is_to_be_done_at_a_place_of_a_job_and_what_to_press_then) {
+  now_.trial = TrialState::State::ready;
+  now_.guidance->state = Guidance::State::no_goal;
+  now_.task = TrialState::Task::pick;
+  now_.reached = "packing table";
+  EXPECT_EQ(pass(3.0), Texts{"packing table, pick, then press start"});
+  now_.reached = "not; a name";
+  EXPECT_EQ(pass(3.0), Texts{"press start to begin"});
+}
+
 TEST_F(StateCuesTest, does_not_ask_into_an_open_menu_for_what_is_chosen_there) {
   now_.trial = TrialState::State::choose_goal;
   now_.guidance->state = Guidance::State::no_goal;

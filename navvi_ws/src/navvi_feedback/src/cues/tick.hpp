@@ -39,6 +39,8 @@ struct Tick {
   if (now.trial == TrialState::State::choose_goal) return CueKind::choose_goal;
   if (now.trial != TrialState::State::ready) return std::nullopt;
   if (now.side_asked) return CueKind::which_side;
+  if (now.task != TrialState::Task::drive && is_place_name(now.reached))
+    return Content{CueKind::press, navvi_types::from_word<About>(to_string(now.task)).value()};
   return Content{CueKind::press, now.devices.keyboard ? About::enter : About::start};
 }
 

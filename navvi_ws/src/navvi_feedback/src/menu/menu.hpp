@@ -8,7 +8,7 @@
 
 #include "cues/phrases.hpp"
 #include "drive/buttons.hpp"
-#include "menu/places_file.hpp"
+#include "navvi_feedback/menu/places_file.hpp"
 #include "menu/setting.hpp"
 #include "types.hpp"
 

@@ -1,4 +1,4 @@
-#include "menu/places_file.hpp"
+#include "navvi_feedback/menu/places_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -24,12 +24,15 @@ using navvi_config::ConfigError;
 NamedPlace read_place(const std::string& file, const YAML::Node& item) {
   constexpr navvi_config::Range kWithin{-navvi_types::kFarthest, navvi_types::kFarthest};
   NamedPlace place;
+  std::string task = "drive";
   const auto describe = [&](navvi_config::Visitor& visit) {
     visit(place.name, "name", navvi_config::Any{}, "", "as it is spoken");
     visit(place.at.x(), "x", kWithin, "m", "in map");
     visit(place.at.y(), "y", kWithin, "m", "in map");
+    visit(task, "do", navvi_config::OneOf{{"drive", "pick", "drop", "scan"}}, "", "of a job");
   };
   navvi_config::read_fields(describe, item, file);
+  place.task = navvi_types::from_word<navvi_types::TrialState::Task>(task).value();
   for (const char* key : {"name", "x", "y"})
     if (!item[key])
       reject(file, item, std::string("a place lacks \"") + key + "\"; it must have name, x and y");
@@ -77,6 +80,9 @@ std::string text_of(const std::vector<NamedPlace>& places) {
   text << std::fixed << std::setprecision(2);
   for (const NamedPlace& place : places)
     text << "- {name: " << place.name << ", x: " << place.at.x() << ", y: " << place.at.y()
+         << (place.task == navvi_types::TrialState::Task::drive
+                 ? std::string()
+                 : std::string(", do: ") + navvi_types::to_string(place.task))
          << "}\n";
   return text.str();
 }

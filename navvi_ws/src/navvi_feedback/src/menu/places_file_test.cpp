@@ -1,4 +1,4 @@
-#include "menu/places_file.hpp"
+#include "navvi_feedback/menu/places_file.hpp"
 
 #include <gtest/gtest.h>
 

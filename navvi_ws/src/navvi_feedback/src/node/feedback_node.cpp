@@ -9,7 +9,7 @@
 
 #include "cues/phrases.hpp"
 #include "lessons/questionnaire.hpp"
-#include "menu/places_file.hpp"
+#include "navvi_feedback/menu/places_file.hpp"
 #include "navvi_feedback/core/guide.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"

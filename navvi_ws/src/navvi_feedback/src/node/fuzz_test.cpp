@@ -7,7 +7,7 @@
 #include <navvi_files/files.hpp>
 
 #include "lessons/questionnaire.hpp"
-#include "menu/places_file.hpp"
+#include "navvi_feedback/menu/places_file.hpp"
 #include "node/node_config.hpp"
 #include "person/person_file.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "menu/places_file.hpp"
+#include "navvi_feedback/menu/places_file.hpp"
 #include "navvi_feedback/core/guide.hpp"
 #include "node/node_config.hpp"
 #include "person/person_file.hpp"

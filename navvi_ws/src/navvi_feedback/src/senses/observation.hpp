@@ -83,6 +83,8 @@ struct Observation {
   double goal_straight = 0.0;               ///< m, as the crow flies, where that is known
   std::optional<navvi_types::Place> place;  ///< the smallest that the robot is in
   TrialState::State trial = TrialState::State::free;
+  TrialState::Task task = TrialState::Task::drive;  ///< of a job, where the robot is
+  std::string reached;                              ///< that place
   std::vector<Content> notices;  ///< to be said when they come, such as no_rumble
 
   /// At rest as far as nothing else is known.

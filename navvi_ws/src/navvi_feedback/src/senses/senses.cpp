@@ -66,6 +66,8 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   now.turned = turned_;
   if (devices.robot) locate(now);
   now.trial = trial_.state;
+  now.task = trial_.task;
+  now.reached = trial_.place;
   now.notices = devices.states;
   if (slow_) now.notices.emplace_back(CueKind::notice, About::connection_slow);
   if (assistance_ != DriveState::Assistance::nothing) now.notices.push_back(CueKind::assisted);

@@ -147,6 +147,11 @@ bool Listener::match(const Phrase& phrase, std::size_t piece, std::string_view t
   if (next.slot.empty())
     return starts(text, next.literal) &&
            match(phrase, piece + 1, text.substr(next.literal.size()), told, heard);
+  // A place may have any name.
+  if (next.slot == "place" && piece + 1 < phrase.pieces.size()) {
+    const std::size_t end = text.find(phrase.pieces[piece + 1].literal);
+    if (end != text.npos && match(phrase, piece + 1, text.substr(end), told, heard)) return true;
+  }
   const std::size_t number = next.slot == "distance" ? digits(text) : 0;
   if (next.slot == "distance" && (number == 0 || text.substr(number, 1) != " ")) return false;
   const std::string_view words = number > 0 ? text.substr(number + 1) : text;

@@ -33,6 +33,7 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"in 6 meters, turn to 3 o'clock", Ask::turn_ahead},
       {"new route, 4 o'clock, 3 meters", Ask::turn},
       {"the goal is 20 meters along the path, at 3 o'clock", Ask::ready},
+      {"packing table, pick, then press start", Ask::begin},
       {"shelf on your left", Ask::beware},
       {"wall ahead", Ask::beware},
       {"hit a pallet robot on your right", Ask::back},

@@ -161,8 +161,9 @@ class TrialNode {
       goals_.publish(navvi_types::goal_msg(goal.place, goal.stamp));
     };
     out.tell = tell;
-    out.show = [this](TrialState::State state) {
-      shown_ = TrialState{state, navvi_types::to_ns(ros::Time::now())};
+    out.show = [this](const TrialState& state) {
+      shown_ = state;
+      shown_->stamp = navvi_types::to_ns(ros::Time::now());
       show();
     };
     out.settings = settings_of_nodes;

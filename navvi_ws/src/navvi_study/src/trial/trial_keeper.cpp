@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <navvi_feedback/menu/places_file.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -45,6 +46,10 @@ TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const M
       flow_(config.limit) {
   check(config_);
   config_.out = fs::absolute(config_.out).lexically_normal().string();
+  if (!config_.job.empty()) {
+    job_.places = navvi_feedback::menu::read_places(config_.job);
+    config_.once = false;
+  }
   for (const auto& sentence : record::recover_trials(config_.out)) tell(Tone::warning, sentence);
   enter(Phase::waiting);
 }
@@ -70,7 +75,7 @@ void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
   readiness_.saw(guidance, now.wall());
   const bool refused = guidance.state == Guidance::State::goal_refused;
-  if (phase_ != Phase::running && refused && goals_.next &&
+  if (phase_ != Phase::running && refused && goals_.next && job_.places.empty() &&
       (guidance.goal - goals_.next->place).norm() < kSame)
     goals_.next.reset();
   observe(guidance);
@@ -171,13 +176,17 @@ TrialState::State TrialKeeper::state() {
   if (!config_.press_to_start) return active() ? State::running : State::free;
   if (phase_ != Phase::armed || !kept_.bag.ready(now_.wall()) || !missing().empty())
     return State::preparing;
-  return goals_.next ? State::ready : State::choose_goal;
+  return goals_.next || job_.done() ? State::ready : State::choose_goal;
 }
 
 void TrialKeeper::show_state() {
-  const TrialState::State now = state();
-  if (shown_.state == now) return;
-  shown_.state = now;
+  TrialState now{state()};
+  if (shown_.state == now.state) return;
+  shown_.state = now.state;
+  if (now.state == TrialState::State::ready && job_.reached > 0) {
+    now.place = job_.places[job_.reached - 1].name;
+    now.task = job_.places[job_.reached - 1].task;
+  }
   outlets_.show(now);
 }
 
@@ -213,7 +222,14 @@ void TrialKeeper::arm() {
 
 void TrialKeeper::try_to_start() {
   if (!kept_.bag.ready(now_.wall())) return;
-  if (offered_.scenario && !offered_.played) {
+  if (job_.done()) {
+    if (config_.press_to_start && !pressed_) return;
+    tell(Tone::info, "The job is done: " + std::to_string(job_.reached) + " places.");
+    return abandon(0);
+  }
+  if (!job_.places.empty()) {
+    if (!goals_.next) goals_.next = ChosenGoal{job_.places[job_.reached].at};
+  } else if (offered_.scenario && !offered_.played) {
     offered_.played = true;
     goals_.next = ChosenGoal{offered_.scenario->goal};
   }
@@ -273,6 +289,11 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   // s of ROS time; the clock runs from TRIAL_START, which follows within a few hundredths of one
   if (const auto pressed = std::exchange(pressed_, std::nullopt))
     fields.set("pressed", 1e-9 * static_cast<double>(*pressed), 3);
+  if (!job_.places.empty()) {
+    const auto& place = job_.places[job_.reached];
+    fields.set("job_place", static_cast<std::uint64_t>(job_.reached + 1)).set("job_name", place.name);
+    fields.set("job_task", to_string(place.task));
+  }
   fields.set("voice", readiness_.trait("speech", "voice"));
   fields.set("pad_name", readiness_.trait("pad", "name"));
   fields.set("pad_firmware", readiness_.trait("pad", "firmware"));
@@ -452,6 +473,10 @@ void TrialKeeper::finish() {
   kept_.journal.reset();
   enter(Phase::waiting);
   shown_.said = phase_since_;
+  // Another goal, of the menu, is none of the job's.
+  if (ending_.result == "reached" && job_.reached < job_.places.size() &&
+      (goals_.now.place - job_.places[job_.reached].at).norm() < kSame)
+    ++job_.reached;
   if (config_.once || exit_.asked || exit_.code != 0) leave(exit_.code);
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <navvi_feedback/menu/named_place.hpp>
 #include <navvi_types/stall_guard.hpp>
 #include <optional>
 #include <string>
@@ -50,7 +51,7 @@ class TrialKeeper {
     std::function<void(const record::Row&)> publish;  ///< is on the disk already
     std::function<void(const ChosenGoal&)> set_goal;
     std::function<void(Tone, const std::string&)> tell;                      ///< for the screen
-    std::function<void(TrialState::State)> show = [](TrialState::State) {};  ///< on each change
+    std::function<void(const TrialState&)> show = [](const TrialState&) {};  ///< on each change
     std::function<Settings()> settings = [] { return Settings(); };
     /// File of what is spoken; empty where it is not known.
     std::function<std::filesystem::path()> phrases = [] { return std::filesystem::path(); };
@@ -124,6 +125,12 @@ class TrialKeeper {
     std::optional<Scenario> scenario;
     bool played = false;
   };
+  /// Places that are driven to one after the other, a trial each.
+  struct Job {
+    std::vector<navvi_feedback::menu::NamedPlace> places;
+    std::size_t reached = 0;
+    [[nodiscard]] bool done() const { return !places.empty() && reached == places.size(); }
+  };
   struct Exit {
     std::optional<double> asked;  ///< s, when it was asked to stop
     int code = 0;
@@ -190,6 +197,7 @@ class TrialKeeper {
   navvi_types::StallGuard stall_{{1.0, 0.5, 3.0}};
   Shown shown_;
   Offered offered_;
+  Job job_;
   std::optional<std::int64_t> pressed_;  ///< ns, ROS time, when the person began it
 
   Kept kept_;

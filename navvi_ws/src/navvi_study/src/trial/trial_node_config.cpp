@@ -60,6 +60,9 @@ void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
   visit(contacts, "contacts", OneOf{{"counted", "unknown"}}, "",
         "unknown where nothing tells of contacts: the summary then says so, and not 0");
   visit(require, "require", OneOf{{"speech", "rumble"}}, "", "no trial without these modalities");
+  visit(job, "job", Any{}, "",
+        "path of a file of places (doc/robot.md) that are driven to one after the other, a trial "
+        "each; empty: none");
   visit(once, "once", Any{}, "", "end after one trial");
   visit(press_to_start, "press_to_start", Any{}, "",
         "a trial begins when the person presses the button for it, and the stick drives from then");

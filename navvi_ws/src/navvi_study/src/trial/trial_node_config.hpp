@@ -46,6 +46,7 @@ struct TrialNodeConfig {
   std::string contacts = "counted";
   std::vector<std::string> require;
   bool once = true;
+  std::string job;
   bool press_to_start = false;
   std::string record = "here";
   double tail = 4.0;

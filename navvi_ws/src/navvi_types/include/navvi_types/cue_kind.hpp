@@ -47,7 +47,7 @@ enum class About : std::uint8_t {
   not_finite, unknown_frame, inside_obstacle, off_the_map, unreachable, not_seen,
   intruder, machine_slow, pad_late, battery_low, connection_slow, two_drivers, no_rumble,
   second_pad, pad_firmware,
-  start, enter,
+  start, enter, pick, drop, scan,
   goal_sure, menu_begin, menu_goals, menu_place, menu_glossary, menu_remember, menu_end,
   menu_end_sure, menu_empty, menu_settings, setting, setting_open, setting_changed, no_trial,
   menu_closed, goal_chosen, place_saved, place_no_file, place_no_pose,
@@ -57,7 +57,7 @@ enum class About : std::uint8_t {
   new_route, way_blocked,
   no_goal, around_nothing, where_place, help_pad, help_keys,
 };
-[[nodiscard]] constexpr std::array<const char*, 68> names(About) {
+[[nodiscard]] constexpr std::array<const char*, 71> names(About) {
   return {"",
           "shelf", "wall", "obstacle",
           "pad", "keyboard", "simulator", "odometry", "audio", "connection", "picture",
@@ -65,7 +65,7 @@ enum class About : std::uint8_t {
           "not_finite", "unknown_frame", "inside_obstacle", "off_the_map", "unreachable", "not_seen",
           "intruder", "machine_slow", "pad_late", "battery_low", "connection_slow", "two_drivers",
           "no_rumble", "second_pad", "pad_firmware",
-          "start", "enter",
+          "start", "enter", "pick", "drop", "scan",
           "goal_sure", "menu_begin", "menu_goals", "menu_place", "menu_glossary", "menu_remember",
           "menu_end", "menu_end_sure", "menu_empty", "menu_settings", "setting", "setting_open",
           "setting_changed", "no_trial",
@@ -180,7 +180,7 @@ inline constexpr CueTraits kRows[] = {
     {K::sides_wrong, "sides_wrong", P::message, 5.0, 10.0, F::other, A::nothing, true},
     {K::which_side, "which_side", P::message, 2.0, 5.0},
     {K::press, "press_*", P::message, 2.0, 5.0, F::other, A::begin, false, T::ready,
-     {B::start, B::enter}},
+     {B::start, B::enter, B::pick, B::drop, B::scan}},
     {K::choose_goal, "choose_goal", P::message, 2.0, 5.0},
     {K::trial_begins, "trial_begins", P::message, 1.0, 2.0, F::other, A::nothing, false,
      T::begun},

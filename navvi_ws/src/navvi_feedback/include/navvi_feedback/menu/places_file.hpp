@@ -11,7 +11,8 @@ namespace navvi_feedback::menu {
 /// More, one after the other, nobody listens to.
 constexpr std::size_t kMostPlaces = 100;
 
-/// A YAML list of {name, x, y}; x and y in m, in map. An empty file has no places.
+/// A YAML list of {name, x, y}; x and y in m, in map, and, of a job, what is to `do` there: pick,
+/// drop or scan. An empty file has no places.
 /// \return in the order of the file \throws navvi_config::ConfigError with file, line and key on an
 /// unknown, missing or repeated key, a name that cannot be spoken or comes twice, a number that is
 /// not finite or out of range, or more than kMostPlaces places
