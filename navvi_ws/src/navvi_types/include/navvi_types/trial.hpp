@@ -16,8 +16,8 @@ struct TrialState {
 
   State state = State::free;
   std::int64_t stamp = 0;  ///< ns, ROS time
-  std::string place;       ///< of a job, that was reached; empty: none
-  Task task = Task::drive; ///< what the person does there before they begin the next trial
+  std::string place = {};    ///< of a job, that was reached; empty: none
+  Task task = Task::drive;   ///< what the person does there before they begin the next trial
 
   /// The stick does not drive: the person has not begun the trial.
   [[nodiscard]] bool holds() const { return state != State::free && state != State::running; }
