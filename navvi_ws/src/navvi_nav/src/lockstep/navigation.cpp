@@ -10,7 +10,11 @@ namespace navvi_nav::lockstep {
 
 using guide::NavigatorConfig;
 
-NavigationConfig::NavigationConfig() : values_(NavigatorConfig()) {}
+NavigationConfig::NavigationConfig() {
+  NavigatorConfig values;
+  values.planner.mesh.threads = 1;
+  values_ = values;
+}
 
 void NavigationConfig::describe(navvi_config::Visitor& visit) {
   std::any_cast<NavigatorConfig&>(values_).describe(visit);
