@@ -41,6 +41,11 @@ Navigation::Navigation(const NavigationConfig& config, const navvi_files::Cache*
           std::make_unique<Parts>(std::any_cast<const NavigatorConfig&>(config.values_), cache)) {}
 Navigation::~Navigation() = default;
 
+void Navigation::set_map(navvi_floor::Voxels voxels) {
+  parts_->navigator.set_map(std::make_shared<const plan::MapMessage>(
+      plan::MapMessage{{}, true, {}, 0.0, std::move(voxels)}));
+}
+
 void Navigation::set_map(std::vector<std::int8_t> data, const std::string& id, double resolution) {
   parts_->navigator.set_map(std::make_shared<const plan::MapMessage>(
       plan::MapMessage{std::move(data), true, id, resolution}));

@@ -16,12 +16,10 @@ navvi_floor::Point point_of(const Eigen::Vector2d& place) { return {place.x(), p
 
 }  // namespace
 
-navvi_floor::Floor floor_of(const occupancy::OccupancyMap& map, double floor, double headroom,
+navvi_floor::Floor floor_of(const navvi_floor::Voxels& voxels, double floor, double headroom,
                             double reach) {
-  const navvi_floor::Voxels voxels = navvi_floor::read_voxels(
-      {map.stream().data(), map.stream().size(), true, "OcTree", map.resolution()});
   navvi_floor::SurveyConfig how;
-  how.cell_size = map.resolution();
+  how.cell_size = voxels.resolution;
   how.robot_height = headroom;
   how.climb = 0.0;
   how.floor_height = floor;
