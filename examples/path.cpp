@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   const auto course = navvi_sim::setup::course_of(config, loaded.world);
 
   navvi_nav::lockstep::Navigation navigation{navvi_nav::lockstep::NavigationConfig{}};
-  navigation.set_map(course.map.stream(), "OcTree", course.map.resolution());
+  navigation.set_map(course.voxels);
   navigation.set_goal(course.ends.goal);
   for (double time = 0.0; time < 1.0; time += 0.05) {  // beats of navigation
     navigation.set_pose(course.ends.start, loaded.world.floor_height, time);

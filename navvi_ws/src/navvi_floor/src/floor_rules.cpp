@@ -17,13 +17,17 @@ constexpr double kRounding = 1e-6;        // levels
 constexpr double kLongestTread = 1.2;     // m, between two steps of a ramp
 constexpr double kObstacle = 0.05;        // m, that an obstacle rises at least (R-NAV-12)
 
-/// Calls `work(band, first, last)` for bands of columns, the last column excluded.
-template <typename Work>
-void for_bands(const HeightField& field, int bands, const Work& work) {
-  const auto all = static_cast<std::int64_t>(field.width()) * field.height();
+/// Calls `visit(band, column, downwards)` for all columns, in bands of rows: HeightField::for_row.
+template <typename Visit>
+void for_bands(const HeightField& field, int bands, const Visit& visit) {
+  const auto row = [&](int band) {
+    return static_cast<int>(static_cast<std::int64_t>(field.height()) * band / bands);
+  };
   in_parallel(bands, bands, [&](int band) {
-    work(static_cast<std::size_t>(band), static_cast<std::size_t>(all * band / bands),
-         static_cast<std::size_t>(all * (band + 1) / bands));
+    for (int y = row(band); y < row(band + 1); ++y)
+      field.for_row(y, [&](std::size_t column, const auto& downwards) {
+        visit(static_cast<std::size_t>(band), column, downwards);
+      });
   });
 }
 
@@ -32,16 +36,13 @@ std::vector<int> count_places(const HeightField& field, int headroom, int thread
   std::vector<std::vector<int>> parts(
       static_cast<std::size_t>(threads),
       std::vector<int>(static_cast<std::size_t>(field.levels()) + 1, 0));
-  for_bands(field, threads, [&](std::size_t band, std::size_t first, std::size_t last) {
-    std::vector<int>& counts = parts[band];
-    for (std::size_t column = first; column < last; ++column) {
-      int ceiling = std::numeric_limits<int>::max();
-      field.downwards(column, [&](Span span) {
-        if (ceiling - span.top >= headroom) ++counts[static_cast<std::size_t>(span.top)];
-        ceiling = span.bottom;
-        return true;
-      });
-    }
+  for_bands(field, threads, [&](std::size_t band, std::size_t, const auto& downwards) {
+    int ceiling = std::numeric_limits<int>::max();
+    downwards([&](Span span) {
+      if (ceiling - span.top >= headroom) ++parts[band][static_cast<std::size_t>(span.top)];
+      ceiling = span.bottom;
+      return true;
+    });
   });
   for (std::size_t part = 1; part < parts.size(); ++part) {
     for (std::size_t level = 0; level < parts[0].size(); ++level)
@@ -79,20 +80,18 @@ std::vector<Ground> on_one_level(const HeightField& field, int floor_top, int he
   std::vector<Ground> ground(
       static_cast<std::size_t>(field.width()) * static_cast<std::size_t>(field.height()),
       Ground::none);
-  for_bands(field, threads, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t column = first; column < last; ++column) {
-      int ceiling = std::numeric_limits<int>::max();
-      field.downwards(column, [&](Span span) {
-        if (span.top < floor_top) return false;
-        if (span.top == floor_top && ceiling - floor_top >= headroom) {
-          ground[column] = Ground::floor;
-        } else if (span.bottom < floor_top + headroom) {
-          ground[column] = Ground::obstacle;
-        }
-        ceiling = span.bottom;
-        return true;
-      });
-    }
+  for_bands(field, threads, [&](std::size_t, std::size_t column, const auto& downwards) {
+    int ceiling = std::numeric_limits<int>::max();
+    downwards([&](Span span) {
+      if (span.top < floor_top) return false;
+      if (span.top == floor_top && ceiling - floor_top >= headroom) {
+        ground[column] = Ground::floor;
+      } else if (span.bottom < floor_top + headroom) {
+        ground[column] = Ground::obstacle;
+      }
+      ceiling = span.bottom;
+      return true;
+    });
   });
   return ground;
 }

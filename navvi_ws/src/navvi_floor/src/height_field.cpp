@@ -18,6 +18,11 @@ namespace {
 constexpr unsigned kLowSide[3] = {0x55U, 0x33U, 0x0fU};
 constexpr int kBits[16] = {0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4};  // that are set
 
+/// Of its columns, one each.
+double runs_of(const VoxelBox& box) {
+  return static_cast<double>(box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
+}
+
 /// m, to the next 0.01 m.
 std::string rounded_up(double edge) {
   std::ostringstream text;
@@ -39,7 +44,8 @@ HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<
   const int bands =
       std::min(std::max({1, threads, static_cast<int>(highest_.size() / kBandColumns)}), size_[1]);
   lower_.resize(static_cast<std::size_t>(bands));
-  const std::size_t most = kFreeRuns + kRunsANode * voxels.octets.size();
+  std::size_t most = kFreeRuns + kRunsANode * voxels.octets.size();
+  for (const VoxelBox& box : voxels.boxes) most += static_cast<std::size_t>(runs_of(box));
   std::atomic<std::size_t> stacked{0};
   in_parallel(bands, threads, [&](int band) {
     if (stacked > most) return;
@@ -59,6 +65,7 @@ HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<
       }
       add(octet, row_at(band), row_at(band + 1), lower);
     }
+    for (const VoxelBox& box : voxels.boxes) add(box, row_at(band), row_at(band + 1), lower);
     count();
     settle(lower);
     lower.push_back({static_cast<std::uint32_t>(highest_.size()), {}});
@@ -100,7 +107,14 @@ void HeightField::measure(const Voxels& voxels, const std::optional<Area>& wante
       high[k] = std::max(high[k], at[k] + (in_high ? 2 * side : side));
     }
   }
-  if (voxels.octets.empty() && !wanted) {
+  for (const VoxelBox& box : voxels.boxes) {
+    runs += runs_of(box);
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], box.low[k]);
+      high[k] = std::max(high[k], box.high[k]);
+    }
+  }
+  if (voxels.octets.empty() && voxels.boxes.empty() && !wanted) {
     error_ = "the map has no occupied voxel";
     return;
   }
@@ -131,32 +145,42 @@ void HeightField::add(const Octet& octet, int first_row, int last_row, std::vect
   const int side = 1 << octet.level;
   const int first = octet.y - kMapCenter - low_[1];
   if (first >= last_row || first + 2 * side <= first_row) return;
-  const int z = octet.z - kMapCenter - low_[2];
   for (int quarter = 0; quarter < 4; ++quarter) {
     const bool in_low = ((octet.mask >> quarter) & 1) != 0;
     const bool in_high = ((octet.mask >> (quarter + 4)) & 1) != 0;
     if (!in_low && !in_high) continue;
-    const int x = octet.x - kMapCenter - low_[0] + ((quarter & 1) != 0 ? side : 0);
-    const int y = first + ((quarter & 2) != 0 ? side : 0);
-    const Packed span{static_cast<std::uint16_t>(z + (in_low ? 0 : side)),
-                      static_cast<std::uint16_t>(z + (in_high ? 2 * side : side))};
-    const int from = std::max(x, 0), to = std::min(x + side, size_[0]);
-    for (int row = std::max(y, first_row); row < std::min(y + side, last_row); ++row) {
-      for (int column = from; column < to; ++column)
-        add(static_cast<std::uint32_t>(row * size_[0] + column), span, lower);
+    const int x = octet.x + ((quarter & 1) != 0 ? side : 0);
+    const int y = octet.y + ((quarter & 2) != 0 ? side : 0);
+    const int bottom = octet.z + (in_low ? 0 : side), top = octet.z + (in_high ? 2 : 1) * side;
+    add({{x, y, bottom}, {x + side, y + side, top}}, first_row, last_row, lower);
+  }
+}
+
+void HeightField::add(const VoxelBox& box, int first_row, int last_row,
+                      std::vector<Lower>& lower) {
+  const auto level = [&](int z) { return static_cast<std::uint16_t>(z - kMapCenter - low_[2]); };
+  const Packed span{level(box.low[2]), level(box.high[2])};
+  const int x = kMapCenter + low_[0], y = kMapCenter + low_[1];
+  const int from = std::max(box.low[0] - x, 0), to = std::min(box.high[0] - x, size_[0]);
+  const int last = std::min(box.high[1] - y, last_row);
+  for (int row = std::max(box.low[1] - y, first_row); row < last; ++row) {
+    for (int at = row * size_[0] + from; at < row * size_[0] + to; ++at) {
+      const auto column = static_cast<std::uint32_t>(at);
+      if (highest_[column].top == 0)
+        highest_[column] = span;
+      else
+        add(column, span, lower);
     }
   }
 }
 
-/// A stream runs upwards within a column, so that most spans begin one or grow it; any order will
-/// do: settle() sorts the spans that are apart here.
+/// To a column that has a span. A stream runs upwards within a column, so that most spans grow one;
+/// any order will do: settle() sorts the spans that are apart here.
 void HeightField::add(std::uint32_t column, Packed span, std::vector<Lower>& lower) {
   Packed& high = highest_[column];
   const std::uint16_t more = high.bottom & kMore;
   const auto bottom = static_cast<std::uint16_t>(high.bottom & ~kMore);
-  if (high.top == 0) {
-    high = span;
-  } else if (span.bottom <= high.top && span.top >= bottom) {
+  if (span.bottom <= high.top && span.top >= bottom) {
     high.bottom = std::min(bottom, span.bottom) | more;
     high.top = std::max(high.top, span.top);
   } else {

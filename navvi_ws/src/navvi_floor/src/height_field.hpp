@@ -60,11 +60,21 @@ class HeightField {
   /// spans of a column touch. Columns lie row by row.
   template <typename Visit>
   void downwards(std::size_t column, const Visit& visit) const {
-    const Packed& high = highest_[column];
-    if (high.top == 0 || !visit(unpacked(high)) || (high.bottom & kMore) == 0) return;
-    for (const Lower* lower = below(column);
-         lower->column == column && visit(unpacked(lower->span));)
-      ++lower;
+    downwards(column, visit, [this](std::size_t at) { return below(at); });
+  }
+  /// Likewise for all columns of a row: calls visit(column, downwards), and that a visit(span).
+  template <typename Visit>
+  void for_row(int row, const Visit& visit) const {
+    const Lower* lower = rows_[static_cast<std::size_t>(row)].begin;
+    const auto width = static_cast<std::size_t>(size_[0]);
+    const std::size_t first = static_cast<std::size_t>(row) * width;
+    for (std::size_t column = first; column < first + width; ++column)
+      visit(column, [&](const auto& visit_span) {
+        downwards(column, visit_span, [&](std::size_t at) {
+          while (lower->column < at) ++lower;
+          return lower;
+        });
+      });
   }
 
  private:
@@ -79,10 +89,19 @@ class HeightField {
     Packed span;
   };
 
+  template <typename Visit, typename Below>
+  void downwards(std::size_t column, const Visit& visit, const Below& below) const {
+    const Packed& high = highest_[column];
+    if (high.top == 0 || !visit(unpacked(high)) || (high.bottom & kMore) == 0) return;
+    for (const Lower* lower = below(column);
+         lower->column == column && visit(unpacked(lower->span));)
+      ++lower;
+  }
   static Span unpacked(Packed span) { return {span.bottom & ~kMore, span.top}; }
   [[nodiscard]] const Lower* below(std::size_t column) const;
   void measure(const Voxels& voxels, const std::optional<Area>& wanted);
   void add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower);
+  void add(const VoxelBox& box, int first_row, int last_row, std::vector<Lower>& lower);
   void add(std::uint32_t column, Packed span, std::vector<Lower>& lower);
   void sort_by_column(std::vector<Lower>& lower) const;
   void settle(std::vector<Lower>& lower);

@@ -40,7 +40,10 @@ std::vector<Leaf> large_leaves(const Voxels& voxels) {
 }
 
 MapSurvey survey_all(const Voxels& voxels, const FloorRules& rules, SurveyRecord& record) {
-  const HeightField field(voxels, rules.threads());
+  const auto columns = voxels.columns
+                           ? voxels.columns
+                           : std::make_shared<const HeightField>(voxels, rules.threads());
+  const HeightField& field = *columns;
   if (!field.error().empty()) return refused(field.error());
   record.places.clear();
   rules.count(field, 1, record.places);
@@ -68,6 +71,10 @@ MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
   SurveyRecord record;
   const FloorRules rules(config, voxels.resolution);
   return completed(survey_all(voxels, rules, record), rules, record);
+}
+
+void measure_columns(Voxels& voxels, int threads) {
+  if (voxels.error.empty()) voxels.columns = std::make_shared<const HeightField>(voxels, threads);
 }
 
 MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config, const SurveyRecord* before,

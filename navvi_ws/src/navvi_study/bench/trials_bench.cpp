@@ -1,6 +1,7 @@
 // Hundreds of seeded trials with the simulated operator, faster than they could be lived:
 // `./navvi bench trials --world=busy --seeds=1-20`.
 
+#include <malloc.h>
 #include <ros/package.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <navvi_config/reader.hpp>
 #include <navvi_people/loop/closed_loop.hpp>
 #include <navvi_types/angles.hpp>
@@ -287,6 +289,9 @@ int main(int argc, char** argv) {
   using navvi_study::bench::BenchConfig;
   try {
     const std::vector<std::string> options{argv + 1, argv + argc};
+    // What a trial frees it soon needs again, and the kernel would clear it anew.
+    mallopt(M_MMAP_THRESHOLD, std::numeric_limits<int>::max());
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
     if (options != std::vector<std::string>{"--help"})
       return navvi_study::bench::run(navvi_study::bench::configured(options));
     for (const navvi_config::Row& row : navvi_config::table<BenchConfig>())

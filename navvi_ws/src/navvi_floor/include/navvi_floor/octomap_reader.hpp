@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,13 +45,23 @@ struct Block {
   std::uint32_t size = 0;
 };
 
+/// Voxels along the axes, from `low` on and before `high`; the map's origin is kMapCenter.
+struct VoxelBox {
+  std::array<int, 3> low;
+  std::array<int, 3> high;
+};
+
+class HeightField;
+
 /// All that navigation wants from an OctoMap: where it is occupied.
 struct Voxels {
   std::string error;        ///< a sentence if the map was refused
   double resolution = 0.0;  ///< m
   std::vector<Octet> octets;
+  std::vector<VoxelBox> boxes = {};  ///< besides, by one that knows them; they may overlap
   std::string source = {};         ///< what a file says of itself; may be empty
   std::vector<Block> blocks = {};  ///< of the stream, if they were read from one, by `low`
+  std::shared_ptr<const HeightField> columns = {};  ///< by measure_columns(); null: not yet
 };
 
 /// The beginning of a word of a map, fit for a terminal.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <navvi_floor/pieces.hpp>
 #include <utility>
 
 namespace navvi_nav::bake {
@@ -112,38 +113,12 @@ TileCells fine_cells(const map::Floor& floor, map::Cell low, int part, int parts
   return out;
 }
 
-/// Numbers the connected pieces of a mask, from 1 on (neighbours share an edge); 0: not in it.
-std::vector<int> pieces_of(const std::vector<char>& mask, int side) {
-  std::vector<int> piece(mask.size(), 0), open;
-  int count = 0;
-  const auto join = [&](int at) {
-    if (mask[static_cast<std::size_t>(at)] == 0 || piece[static_cast<std::size_t>(at)] != 0) return;
-    piece[static_cast<std::size_t>(at)] = count;
-    open.push_back(at);
-  };
-  for (int first = 0; first < side * side; ++first) {
-    if (mask[static_cast<std::size_t>(first)] == 0 || piece[static_cast<std::size_t>(first)] != 0)
-      continue;
-    ++count;
-    join(first);
-    while (!open.empty()) {
-      const int at = open.back();
-      open.pop_back();
-      if (at % side > 0) join(at - 1);
-      if (at % side < side - 1) join(at + 1);
-      if (at >= side) join(at - side);
-      if (at < side * (side - 1)) join(at + side);
-    }
-  }
-  return piece;
-}
-
 /// A square's fine cells by what they belong to, numbered from 1 on; 0: to none.
 struct Pieces {
-  int side = 0;            // fine cells
-  std::vector<int> fine;   // pieces of the fine open cells
-  std::vector<int> whole;  // of the whole open cells
-  std::vector<int> exits;  // of the fine ones along the square's rim
+  int side = 0;                      // fine cells
+  std::vector<std::uint32_t> fine;   // pieces of the fine open cells
+  std::vector<std::uint32_t> whole;  // of the whole open cells
+  std::vector<std::uint32_t> exits;  // of the fine ones along the square's rim
 };
 
 Pieces pieces_in(const TileCells& fine, const map::Floor& floor, int parts) {
@@ -158,7 +133,11 @@ Pieces pieces_in(const TileCells& fine, const map::Floor& floor, int parts) {
       rim.push_back(static_cast<char>(on_rim && fine.is_open(x, y)));
     }
   }
-  return {side, pieces_of(open, side), pieces_of(whole, side), pieces_of(rim, side)};
+  const auto pieces = [side](const std::vector<char>& mask) {
+    const auto size = static_cast<std::size_t>(side);
+    return map::pieces_of(size, size, 0, [&mask](std::size_t at) { return mask[at] != 0; });
+  };
+  return {side, pieces(open), pieces(whole), pieces(rim)};
 }
 
 /// For each exit whether a whole open cell of its piece lies beside it. Then what is beyond is left
@@ -174,7 +153,7 @@ std::vector<char> exits_at_cells(const Pieces& of, int parts) {
       if (x < 0 || y < 0 || x >= of.side || y >= of.side) continue;
       const auto beside = static_cast<std::size_t>(y * of.side + x);
       if (of.whole[beside] != 0 && of.fine[beside] == of.fine[i])
-        out[static_cast<std::size_t>(of.exits[i])] = 1;
+        out[of.exits[i]] = 1;
     }
   }
   return out;
@@ -184,14 +163,14 @@ std::vector<char> exits_at_cells(const Pieces& of, int parts) {
 bool opens_a_way(const TileCells& fine, const map::Floor& floor, int parts) {
   const Pieces of = pieces_in(fine, floor, parts);
   const std::vector<char> at_cells = exits_at_cells(of, parts);
-  const int cells = static_cast<int>(of.fine.size());
-  std::vector<int> first(of.fine.size() + 1, 0);
+  const auto cells = static_cast<std::uint32_t>(of.fine.size());
+  std::vector<std::uint32_t> first(of.fine.size() + 1, 0);
   for (std::size_t at = 0; at < of.fine.size(); ++at) {
-    const int exit = of.exits[at];
-    int end = of.whole[at];
-    if (end == 0 && exit != 0 && at_cells[static_cast<std::size_t>(exit)] == 0) end = cells + exit;
+    const std::uint32_t exit = of.exits[at];
+    std::uint32_t end = of.whole[at];
+    if (end == 0 && exit != 0 && at_cells[exit] == 0) end = cells + exit;
     if (of.fine[at] == 0 || end == 0) continue;
-    int& known = first[static_cast<std::size_t>(of.fine[at])];
+    std::uint32_t& known = first[of.fine[at]];
     if (known != 0 && known != end) return true;
     known = end;
   }

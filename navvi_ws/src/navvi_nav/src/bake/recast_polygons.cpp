@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <navvi_floor/pieces.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -217,9 +218,44 @@ std::optional<std::vector<mesh::GridPolygon>> try_bake(rcContext& context, const
   return try_contours(context, cells, *set, drawn);
 }
 
+/// As rcBuildLayerRegions, which on a single level makes one region of what hangs together, and one
+/// of each side of the border, but ten times as fast. Cells amid their region keep their index and
+/// connections, for what looks at neighbours, and are counted out: no contour begins there.
+void build_layers(rcCompactHeightfield& field, std::vector<std::uint8_t> open) {
+  const int side = field.width, last = side - 1;
+  const auto at = [side](int x, int y) { return static_cast<std::size_t>(x + y * side); };
+  for (int i = 0; i < side; ++i)
+    open[at(i, 0)] = open[at(i, last)] = open[at(0, i)] = open[at(last, i)] = 0;
+  const auto pieces = map::pieces_of(static_cast<std::size_t>(side), static_cast<std::size_t>(side),
+                                     0, [&open](std::size_t cell) { return open[cell] != 0; });
+  std::vector<std::uint8_t> amid(open.size(), 0);
+  for (std::size_t i = at(1, 1); i < at(last, last); ++i) {
+    const std::uint8_t* const above = &open[i + at(0, 1)];
+    const std::uint8_t* const below = &open[i - at(0, 1)];
+    amid[i] = open[i - 1] & open[i] & open[i + 1] & above[-1] & above[0] & above[1] & below[-1] &
+              below[0] & below[1];
+  }
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      rcCompactCell& cell = field.cells[at(x, y)];
+      if (cell.count == 0) continue;
+      const auto piece = static_cast<unsigned short>(pieces[at(x, y)]);
+      const int border = y == last ? 4 : y == 0 ? 3 : x == last ? 2 : 1;
+      field.spans[cell.index].reg =
+          piece != 0 ? piece : static_cast<unsigned short>(RC_BORDER_REG | border);
+      field.maxRegions = std::max(field.maxRegions, piece);
+      cell.count = amid[at(x, y)] == 0;
+    }
+  }
+  field.borderSize = kBorder;
+}
+
 bool build_regions(rcContext& context, const TileCells& cells, const BakeConfig& config,
                    rcCompactHeightfield& field) {
-  if (!config.watershed) return rcBuildLayerRegions(&context, field, kBorder, 0);
+  if (!config.watershed) {
+    build_layers(field, cells.open);
+    return true;
+  }
   measure_distances(field, cells);
   return rcBuildRegions(&context, field, kBorder, 0, config.merge_region);
 }

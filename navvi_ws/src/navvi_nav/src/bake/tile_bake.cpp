@@ -57,12 +57,13 @@ std::vector<mesh::GridPolygon> take_lone_cells(TileCells& cells, int grow) {
   };
   std::vector<map::Cell> lone;
   for (int y = 0; y < cells.size; ++y) {
+    const std::uint8_t* row = &open(0, y);
     for (int x = 0; x < cells.size; ++x) {
-      const bool alone = open(x, y) != 0 && !(x > 0 && open(x - 1, y) != 0) &&
-                         !(x + 1 < cells.size && open(x + 1, y) != 0) &&
-                         !(y > 0 && open(x, y - 1) != 0) &&
-                         !(y + 1 < cells.size && open(x, y + 1) != 0);
-      if (alone) lone.push_back({x, y});
+      const int from = x;
+      while (x < cells.size && row[x] != 0) ++x;
+      if (x == from + 1 && !(y > 0 && row[from - side] != 0) &&
+          !(y + 1 < cells.size && row[from + side] != 0))
+        lone.push_back({from, y});
     }
   }
   std::vector<mesh::GridPolygon> out;

@@ -10,7 +10,11 @@ namespace navvi_nav::lockstep {
 
 using guide::NavigatorConfig;
 
-NavigationConfig::NavigationConfig() : values_(NavigatorConfig()) {}
+NavigationConfig::NavigationConfig() {
+  NavigatorConfig values;
+  values.planner.mesh.threads = 1;
+  values_ = values;
+}
 
 void NavigationConfig::describe(navvi_config::Visitor& visit) {
   std::any_cast<NavigatorConfig&>(values_).describe(visit);
@@ -36,6 +40,11 @@ Navigation::Navigation(const NavigationConfig& config, const navvi_files::Cache*
     : parts_(
           std::make_unique<Parts>(std::any_cast<const NavigatorConfig&>(config.values_), cache)) {}
 Navigation::~Navigation() = default;
+
+void Navigation::set_map(navvi_floor::Voxels voxels) {
+  parts_->navigator.set_map(std::make_shared<const plan::MapMessage>(
+      plan::MapMessage{{}, true, {}, 0.0, std::move(voxels)}));
+}
 
 void Navigation::set_map(std::vector<std::int8_t> data, const std::string& id, double resolution) {
   parts_->navigator.set_map(std::make_shared<const plan::MapMessage>(

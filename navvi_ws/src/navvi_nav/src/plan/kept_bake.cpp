@@ -9,12 +9,12 @@
 namespace navvi_nav::plan {
 namespace {
 
-std::string key_of(const NavMesh& mesh, const map::MapBytes& map, std::optional<double> stands_at) {
-  const std::string_view data(reinterpret_cast<const char*>(map.data), map.size);
-  navvi_files::ByteWriter key;
+std::string key_of(const NavMesh& mesh, const map::Voxels& map, std::optional<double> stands_at) {
+  navvi_files::ByteWriter voxels, key;
+  voxels.put(map.error, map.octets, map.boxes);
   key.put(std::string_view("mesh"), navvi_config::write(mesh.config()), mesh.clearance(),
-          stands_at.has_value(), stands_at.value_or(0.0), map.id, map.binary, map.resolution,
-          navvi_files::hash_of(data), map.size);
+          stands_at.has_value(), stands_at.value_or(0.0), map.resolution,
+          navvi_files::hash_of(voxels.bytes()), voxels.bytes().size());
   return key.bytes();
 }
 
@@ -82,7 +82,7 @@ bake::BakedMap from_bytes(std::string_view bytes, int threads) {
 
 }  // namespace
 
-bake::BakedMap kept_bake(const NavMesh& mesh, const map::MapBytes& map,
+bake::BakedMap kept_bake(const NavMesh& mesh, const map::Voxels& map,
                          std::optional<double> stands_at, const navvi_files::Cache& cache) {
   const std::string key = key_of(mesh, map, stands_at);
   if (const auto bytes = cache.find(key))

@@ -80,8 +80,9 @@ class NavMesh {
     return bake(map::survey_map(bytes, survey_config(config_, stands_at), baked_.record.get(),
                                 baked_.floor.get()));
   }
-  [[nodiscard]] bake::BakedMap bake(const map::Voxels& voxels) const {
-    return bake(map::survey_map(voxels, survey_config(config_)));
+  [[nodiscard]] bake::BakedMap bake(const map::Voxels& voxels,
+                                    std::optional<double> stands_at = std::nullopt) const {
+    return bake(map::survey_map(voxels, survey_config(config_, stands_at)));
   }
   [[nodiscard]] bake::BakedMap bake(const map::OccupancyGrid& grid) const {
     return bake(map::read_grid(grid, survey_config(config_)));

@@ -19,6 +19,7 @@ struct MapMessage {
   bool binary = true;
   std::string id;
   double resolution = 0.0;  ///< m
+  std::optional<map::Voxels> voxels = {};  ///< in place of all this, by one that knows them
 };
 
 /// One query to the Planner.

@@ -114,11 +114,12 @@ bake::BakedMap Planner::bake(const PlanRequest& request) const {
   try {
     if (request.grid) return nav_mesh_.bake(*request.grid);
     if (!request.map) return {};
-    const map::MapBytes map{request.map->data.data(), request.map->data.size(), request.map->binary,
-                            request.map->id, request.map->resolution};
-    if (cache_ != nullptr && nav_mesh_.empty())
-      return kept_bake(nav_mesh_, map, request.stands_at, *cache_);
-    return nav_mesh_.bake(map, request.stands_at);
+    const MapMessage& map = *request.map;
+    if (map.voxels && cache_ != nullptr && nav_mesh_.empty())
+      return kept_bake(nav_mesh_, *map.voxels, request.stands_at, *cache_);
+    if (map.voxels) return nav_mesh_.bake(*map.voxels, request.stands_at);
+    return nav_mesh_.bake({map.data.data(), map.data.size(), map.binary, map.id, map.resolution},
+                          request.stands_at);
   } catch (const std::exception& error) {
     failed.error = error.what();
   }

@@ -3,7 +3,6 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
-#include <navvi_sim/setup/course.hpp>
 #include <navvi_types/headroom.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <stdexcept>
@@ -54,20 +53,18 @@ void ClosedLoopConfig::describe(navvi_config::Visitor& visit) {
 }
 
 ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_files::Cache* cache)
-    : world(navvi_sim::setup::load_world(config.sim).world) {
-  const navvi_sim::setup::Course course = navvi_sim::setup::course_of(config.sim, world, cache);
-  scenario = course.ends;
-  if (config.sim.sensing == "truth")
-    map = navvi_sim::node::to_msg(course.map, ros::Time());
-  else
-    senses.emplace(config.sim, perception_of(config), world, course.map);
+    : world(navvi_sim::setup::load_world(config.sim).world),
+      course(navvi_sim::setup::course_of(config.sim, world, cache)) {
+  if (config.sim.sensing != "truth")
+    senses.emplace(config.sim, perception_of(config), world,
+                   navvi_sim::setup::map_of(config.sim, world));
 }
 
 ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
                        const navvi_files::Cache* cache)
     : config_(with_headroom(config)),
       setting_(config, cache),
-      session_(setting_.world, config.sim.life, setting_.scenario.start,
+      session_(setting_.world, config.sim.life, setting_.course.ends.start,
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
       navigation_(config.nav, cache),
@@ -75,8 +72,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
   if (config.driver == "sighted")
     sighted_.emplace(config.person.typed().driving, static_cast<std::uint64_t>(config.person.seed),
                      static_cast<std::uint64_t>(config.sim.seed));
-  if (!setting_.senses)
-    navigation_.set_map(std::move(setting_.map.data), setting_.map.id, setting_.map.resolution);
+  if (!setting_.senses) navigation_.set_map(std::move(setting_.course.voxels));
 }
 
 bool ClosedLoop::step() {
@@ -175,7 +171,7 @@ void ClosedLoop::require_map() const {
 void ClosedLoop::navigate() {
   if (!begun_ && navigation_.has_map() && time() >= kGoalAt) {
     begun_ = true;
-    navigation_.set_goal(setting_.scenario.goal);
+    navigation_.set_goal(setting_.course.ends.goal);
   }
   const geometry_msgs::Transform at = pose();
   if (const auto robot = node::from_msg(at)) navigation_.set_pose(*robot, at.translation.z, time());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <navvi_floor/map_survey.hpp>
 #include <set>
 
 #include "description/validate.hpp"
@@ -271,7 +272,7 @@ TEST(Layouts, of_two_hundred_and_forty_each_has_a_start_connected_to_a_goal) {
     drawing.min_route = 0.4 * one.config.length;
     const occupancy::OccupancyConfig voxels{one.config.length > 50.0 ? 0.2 : 0.1};
     const scenario::StartAndGoal scenario =
-        scenario::draw_scenario(world, occupancy::occupancy_of(world, voxels), drawing, one.seed);
+        scenario::draw_scenario(world, occupancy::voxels_of(world, voxels), drawing, one.seed);
     EXPECT_GE(scenario.route_length, drawing.min_route) << one.name;
   }
 }
@@ -288,13 +289,42 @@ TEST(Layouts, of_the_greatest_size_have_a_map_that_navigation_takes_at_the_fines
   EXPECT_LT(map.stream().size(), 64U * 1024U * 1024U);
 }
 
+/// What is driven on, at the robot's height and lower.
+void expect_same_floor(const WorldDescription& world, double voxel) {
+  const navvi_floor::Voxels boxes = occupancy::voxels_of(world, {voxel});
+  const navvi_floor::Voxels tree = occupancy::voxels_of(occupancy::occupancy_of(world, {voxel}));
+  EXPECT_FALSE(boxes.boxes.empty());
+  for (const double height : {navvi_types::kHeadroom, voxel}) {
+    navvi_floor::SurveyConfig how;
+    how.robot_height = height;
+    const navvi_floor::MapSurvey one = navvi_floor::survey_map(boxes, how);
+    const navvi_floor::MapSurvey other = navvi_floor::survey_map(tree, how);
+    EXPECT_EQ(one.error, other.error);
+    EXPECT_EQ(one.levels, other.levels);
+    EXPECT_EQ(one.floor_height, other.floor_height);
+    EXPECT_TRUE(one.low.x == other.low.x && one.low.y == other.low.y);
+    EXPECT_TRUE(one.ground == other.ground);
+  }
+}
+
+TEST(Layouts, show_the_same_floor_by_their_boxes_as_by_their_map) {
+  for (const Preset& known : presets())
+    for (std::uint64_t seed = 0; seed < 5; ++seed)
+      expect_same_floor(layout(known.name, known.config, seed), 0.05);
+  for (const Case& one : cases()) {
+    SCOPED_TRACE(one.name);
+    if (one.config.length <= 50.0) expect_same_floor(built(one), 0.1);
+  }
+}
+
 TEST(Layouts, of_every_preset_cut_no_place_off_where_the_robot_has_room) {
   for (const Preset& known : presets())
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
-      const occupancy::OccupancyMap map = occupancy::occupancy_of(
+      const navvi_floor::Voxels voxels = occupancy::voxels_of(
           layout(known.name, known.config, seed), occupancy::OccupancyConfig{0.1});
       constexpr double kRoom = 0.5;  // m: the robot's radius and a margin
-      const scenario::FloorWays grid(scenario::floor_of(map, 0.0, navvi_types::kHeadroom, kRoom));
+      const scenario::FloorWays grid(
+          scenario::floor_of(voxels, 0.0, navvi_types::kHeadroom, kRoom));
       const scenario::FloorWays::Cells free = grid.cells_clear_by(kRoom);
       ASSERT_FALSE(free.empty());
       const scenario::FloorWays::Ways ways = grid.ways_from(free.front(), kRoom);
@@ -312,7 +342,7 @@ TEST(Layouts, live_for_two_minutes_in_which_all_that_moves_gets_on_and_enters_no
       for (const Body& one : bodies(description))
         if (!description.things[one.thing].route) standing.push_back(one);
       const scenario::StartAndGoal scenario = scenario::draw_scenario(
-          description, occupancy::occupancy_of(description, occupancy::OccupancyConfig{0.1}), {},
+          description, occupancy::voxels_of(description, occupancy::OccupancyConfig{0.1}), {},
           seed);
       live::World world(description, {}, scenario.start, seed);
       std::vector<double> way(world.now().movers.size(), 0.0);
@@ -358,7 +388,7 @@ TEST(Layouts, of_every_preset_start_and_end_a_route_where_no_mover_comes) {
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
       const WorldDescription world = layout(known.name, known.config, seed);
       const scenario::StartAndGoal scenario = scenario::draw_scenario(
-          world, occupancy::occupancy_of(world, occupancy::OccupancyConfig{0.1}), {}, seed);
+          world, occupancy::voxels_of(world, occupancy::OccupancyConfig{0.1}), {}, seed);
       EXPECT_GE(scenario.route_length, 10.0);
       traffic::Traffic traffic(world, {}, seed);
       for (int step = 0; step < 3000; ++step) {
@@ -512,10 +542,10 @@ TEST(Layouts, contradict_themselves_in_a_sentence_that_names_the_field) {
 TEST(Layouts, of_every_preset_name_their_places_and_a_robot_can_stand_in_each) {
   for (const Preset& known : presets()) {
     const WorldDescription world = layout(known.name, known.config, 3);
-    const occupancy::OccupancyMap map =
-        occupancy::occupancy_of(world, occupancy::OccupancyConfig{0.1});
-    const scenario::FloorWays grid(scenario::floor_of(map, 0.0, navvi_types::kHeadroom, 0.5));
-    const std::vector<Place> places = scenario::free_places_of(world, map, {});
+    const navvi_floor::Voxels voxels =
+        occupancy::voxels_of(world, occupancy::OccupancyConfig{0.1});
+    const scenario::FloorWays grid(scenario::floor_of(voxels, 0.0, navvi_types::kHeadroom, 0.5));
+    const std::vector<Place> places = scenario::free_places_of(world, voxels, {});
     std::map<Place::Kind, int> count;
     for (const Place& place : places) {
       ++count[place.kind];

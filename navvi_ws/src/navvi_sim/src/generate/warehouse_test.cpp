@@ -143,9 +143,9 @@ TEST(Warehouse, lets_workers_stand_or_walk_as_asked) {
 TEST(Warehouse, gives_every_seed_a_free_and_connected_scenario) {
   for (std::uint64_t seed = 0; seed <= 20; ++seed) {
     const WorldDescription world = warehouse(seed);
-    const occupancy::OccupancyMap map = occupancy::occupancy_of(world, {});
-    const octomap::OcTree tree = tree_of(map);
-    const scenario::StartAndGoal scenario = scenario::draw_scenario(world, map, {}, seed);
+    const octomap::OcTree tree = tree_of(occupancy::occupancy_of(world, {}));
+    const scenario::StartAndGoal scenario =
+        scenario::draw_scenario(world, occupancy::voxels_of(world, {}), {}, seed);
     EXPECT_GE(scenario.route_length, 10.0) << "seed " << seed;
     for (const Eigen::Vector2d& place : {scenario.start.position, scenario.goal})
       for (double angle = 0.0; angle < 6.3; angle += 0.2)

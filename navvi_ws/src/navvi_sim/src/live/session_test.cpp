@@ -26,7 +26,7 @@ struct Drive {
   explicit Drive(int seed) {
     config.seed = seed;
     world = setup::load_world(config).world;
-    scenario = setup::scenario_of(config, world, occupancy::occupancy_of(world, config.octomap));
+    scenario = setup::scenario_of(config, world, occupancy::voxels_of(world, config.octomap));
   }
   [[nodiscard]] Session begin() const {
     return Session(world, config.life, scenario.start, static_cast<std::uint64_t>(config.seed));

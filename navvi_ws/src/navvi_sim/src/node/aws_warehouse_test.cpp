@@ -47,9 +47,9 @@ TEST_F(AwsWarehouse, has_the_floor_where_its_ground_mesh_is_level) {
 }
 
 TEST_F(AwsWarehouse, lets_a_robot_go_from_the_south_to_the_north) {
-  const occupancy::OccupancyMap map = occupancy::occupancy_of(loaded_.world, {});
   const scenario::StartAndGoal scenario = scenario::draw_scenario(
-      loaded_.world, map, {}, 1, Pose2{{1.0, -9.0}, 1.57}, Eigen::Vector2d(1.0, 6.0));
+      loaded_.world, occupancy::voxels_of(loaded_.world, {}), {}, 1, Pose2{{1.0, -9.0}, 1.57},
+      Eigen::Vector2d(1.0, 6.0));
   EXPECT_GE(scenario.route_length, 15.0 - 0.1);
   EXPECT_LT(scenario.route_length, 25.0);
 }

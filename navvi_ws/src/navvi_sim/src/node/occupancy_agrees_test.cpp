@@ -148,15 +148,15 @@ bool enclosed(const Surfaces& surfaces, const Eigen::Vector3d& at) {
 void expect_agreement(const WorldDescription& world, std::uint64_t seed) {
   constexpr double kRange = 12.0;  // m
   const occupancy::OccupancyConfig config;
-  const occupancy::OccupancyMap voxels = occupancy::occupancy_of(world, config);
-  const octomap::OcTree map = tree_of(voxels);
+  const octomap::OcTree map = tree_of(occupancy::occupancy_of(world, config));
   const Surfaces surfaces = surfaces_of(world);
   const double voxel = config.resolution;
   const double lift = std::round(world.floor_height / voxel) * voxel - world.floor_height;
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int hits = 0;
-  const Pose2 stand = scenario::draw_scenario(world, voxels, {}, seed).start;
+  const Pose2 stand =
+      scenario::draw_scenario(world, occupancy::voxels_of(world, config), {}, seed).start;
   for (int place = 0; place < 60;) {
     const Eigen::Vector3d eye(stand.position.x() + 8.0 * unit(random),
                               stand.position.y() + 8.0 * unit(random),

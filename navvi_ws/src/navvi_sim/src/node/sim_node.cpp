@@ -70,7 +70,8 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
       map_(setup::map_of(config_, description_)),
       gate_(config.gate),
       pacer_(config.life.step, config.rate, kMostSteps) {
-  const scenario::StartAndGoal scenario = setup::scenario_of(config_, description_, map_);
+  const scenario::StartAndGoal scenario = setup::scenario_of(
+      config_, description_, setup::voxels_of(config_, description_));
   session_.emplace(description_, config_.life, scenario.start,
                    static_cast<std::uint64_t>(config_.seed));
 

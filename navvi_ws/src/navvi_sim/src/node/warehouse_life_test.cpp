@@ -20,17 +20,19 @@ constexpr double kMinutes = 10.0;
 constexpr double kDoorWidth = 3.0;   // m, of a dock
 constexpr double kDoorDepth = 0.12;  // m, that its door stands back in the wall
 
+const occupancy::OccupancyConfig kVoxels{0.10};
+
 struct Life {
   explicit Life(std::uint64_t seed, double off_routes = 0.0)
       : description(warehouse(seed)),
-        map(occupancy::occupancy_of(description, occupancy::OccupancyConfig{0.10})),
-        tree(tree_of(map)),
+        tree(tree_of(occupancy::occupancy_of(description, kVoxels))),
         world(description, {}, start(seed, off_routes), seed) {}
 
   /// A drawn start that is farther than `distance` from every route.
   [[nodiscard]] Pose2 start(std::uint64_t seed, double distance) const {
+    const navvi_floor::Voxels voxels = occupancy::voxels_of(description, kVoxels);
     for (;; ++seed) {
-      const Pose2 pose = scenario::draw_scenario(description, map, {}, seed).start;
+      const Pose2 pose = scenario::draw_scenario(description, voxels, {}, seed).start;
       if (distance_to_routes(pose.position) > distance) return pose;
     }
   }
@@ -50,7 +52,6 @@ struct Life {
   }
 
   WorldDescription description;
-  occupancy::OccupancyMap map;
   octomap::OcTree tree;
   live::World world;
 };

@@ -94,7 +94,7 @@ void WorldOutlets::publish_static(const scenario::StartAndGoal& scenario,
   scenario_.publish(navvi_types::to_msg(navvi_types::Scenario{
       description_.name, world_hash(description_), static_cast<std::uint64_t>(config_.seed),
       scenario.goal, scenario.start, description_.floor_height,
-      scenario::free_places_of(description_, map_, config_.scenario),
+      scenario::free_places_of(description_, occupancy::voxels_of(map_), config_.scenario),
       setup::recipe(config_, scenario), world().now().stamp()}));
 }
 

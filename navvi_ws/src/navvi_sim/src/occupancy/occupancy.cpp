@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "description/floor_height.hpp"
 #include "occupancy/octree_writer.hpp"
@@ -49,12 +50,18 @@ class ShapeInserter {
     const double reach = reach_of(box.size.minCoeff());
     if (is_aligned(pose_))
       shapes_.boxes.push_back(voxel_box(box, reach));
+    else if (pose_.linear()(2, 2) == 1.0)
+      add_upright(TurnedBox(box.size, pose_), reach, pose_.linear().cwiseAbs() * box.size / 2.0);
     else
       shapes_.solids.push_back({TurnedBox(box.size, pose_), reach});
   }
   void operator()(const Cylinder& cylinder) const {
-    shapes_.solids.push_back({SolidCylinder(cylinder, pose_),
-                              reach_of(std::min(2.0 * cylinder.radius, cylinder.length))});
+    const double reach = reach_of(std::min(2.0 * cylinder.radius, cylinder.length));
+    const SolidCylinder solid(cylinder, pose_);
+    if (solid.upright())
+      add_upright(solid, reach, {cylinder.radius, cylinder.radius, cylinder.length / 2.0});
+    else
+      shapes_.solids.push_back({solid, reach});
   }
   void operator()(const Sphere& sphere) const {
     shapes_.solids.push_back(
@@ -91,6 +98,38 @@ class ShapeInserter {
     return std::min(kReach * resolution_, thickness / 4.0);
   }
 
+  /// All columns of a solid that stands upright have the same layers of it: a box a row.
+  /// \param half  m, of its extent
+  template <typename Upright>
+  void add_upright(const Upright& solid, double reach, const Eigen::Vector3d& half) const {
+    const double edge = resolution_;
+    const auto middle_of = [edge](int voxel) {  // as OctreeWriter comes to it, to the last bit
+      return ((voxel & ~1) + 1) * edge + ((voxel & 1) != 0 ? edge / 2.0 : -edge / 2.0);
+    };
+    const auto has = [&](int x, int y, int z) {
+      return solid.overlap({{middle_of(x), middle_of(y), middle_of(z)}, edge / 2.0 - reach}) !=
+             Overlap::none;
+    };
+    const auto voxel_at = [edge](const Eigen::Vector3d& at) -> Eigen::Array3i {
+      return (at / edge).array().floor().cast<int>();
+    };
+    const Eigen::Array3i middle = voxel_at(pose_.translation());
+    const Eigen::Array3i from = voxel_at(pose_.translation() - half) - 1;
+    const Eigen::Array3i to = voxel_at(pose_.translation() + half) + 2;
+    constexpr int kCenter = OccupancyMap::kCenter;
+    int bottom = middle.z(), top = middle.z() + 1;
+    while (has(middle.x(), middle.y(), bottom - 1)) --bottom;
+    while (has(middle.x(), middle.y(), top)) ++top;
+    for (int y = from.y(); y < to.y(); ++y) {
+      int left = from.x(), right = to.x();
+      while (left < right && !has(left, y, middle.z())) ++left;
+      while (left < right && !has(right - 1, y, middle.z())) --right;
+      if (left < right)
+        shapes_.boxes.push_back({{{left + kCenter, y + kCenter, bottom + kCenter},
+                                  {right + kCenter, y + 1 + kCenter, top + kCenter}}});
+    }
+  }
+
   /// The voxels that a box along the axes reaches into.
   [[nodiscard]] VoxelBox voxel_box(const Box& box, double reach) const {
     const Eigen::Vector3d half =
@@ -125,14 +164,7 @@ void check_reach(const Thing& thing, const Eigen::AlignedBox3d& bounds, double r
                      " m at the OctoMap's resolution of " + std::to_string(resolution) + " m");
 }
 
-}  // namespace
-
-void OccupancyConfig::describe(navvi_config::Visitor& visit) {
-  visit(resolution, "resolution", navvi_config::Range{0.01, 1.0}, "m",
-        "edge of a voxel of the OctoMap");
-}
-
-OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {
+OccupiedShapes shapes_of(const WorldDescription& world, const OccupancyConfig& config) {
   const double border = std::round(world.floor_height / config.resolution) * config.resolution;
   const Ground ground{border, config.underside};
   OccupiedShapes shapes;
@@ -152,7 +184,33 @@ OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& 
           shape.geometry);
     }
   }
-  return {config.resolution, write_octree(shapes, config.resolution, kMaxBytes)};
+  return shapes;
+}
+
+}  // namespace
+
+void OccupancyConfig::describe(navvi_config::Visitor& visit) {
+  visit(resolution, "resolution", navvi_config::Range{0.01, 1.0}, "m",
+        "edge of a voxel of the OctoMap");
+}
+
+OccupancyMap occupancy_of(const WorldDescription& world, const OccupancyConfig& config) {
+  return {config.resolution, write_octree(shapes_of(world, config), config.resolution, kMaxBytes)};
+}
+
+navvi_floor::Voxels voxels_of(const OccupancyMap& map) {
+  if (map.stream().empty()) return {"", map.resolution(), {}};
+  return navvi_floor::read_voxels(
+      {map.stream().data(), map.stream().size(), true, "OcTree", map.resolution()});
+}
+
+navvi_floor::Voxels voxels_of(const WorldDescription& world, const OccupancyConfig& config) {
+  OccupiedShapes shapes = shapes_of(world, config);
+  const std::vector<VoxelBox> boxes = std::exchange(shapes.boxes, {});
+  navvi_floor::Voxels out =
+      voxels_of({config.resolution, write_octree(shapes, config.resolution, kMaxBytes)});
+  out.boxes.assign(boxes.begin(), boxes.end());
+  return out;
 }
 
 }  // namespace navvi_sim::occupancy

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <navvi_floor/octomap_reader.hpp>
 #include <vector>
 
 #include "occupancy/closed_mesh.hpp"
@@ -30,11 +31,8 @@ struct VoxelCube {
 using Brick = std::uint64_t;
 inline constexpr int kBrickLevel = 2;
 
-/// Voxels along the axes, from `low` on and before `high`.
-struct VoxelBox {
-  std::array<int, 3> low;
-  std::array<int, 3> high;
-
+/// A box of voxels, and what a cube has of it.
+struct VoxelBox : navvi_floor::VoxelBox {
   [[nodiscard]] Octants octants(const VoxelCube& cube) const {
     Octants all{0xFFU, 0xFFU};
     const int half = 1 << (cube.level - 1);

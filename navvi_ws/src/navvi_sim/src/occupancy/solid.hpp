@@ -60,6 +60,7 @@ class SolidCylinder {
  public:
   SolidCylinder(const Cylinder& cylinder, const Eigen::Isometry3d& pose);
 
+  [[nodiscard]] bool upright() const { return upright_; }
   [[nodiscard]] Overlap overlap(const Cell& cell) const;
 
  private:

@@ -27,8 +27,8 @@ TEST_F(SdfWorld, that_ships_is_a_room_with_a_shelf) {
   EXPECT_EQ(thing_named(loaded.world, "pedestal")->thing_class, ThingClass::pedestal);
   EXPECT_EQ(thing_named(loaded.world, "box_upper")->thing_class, ThingClass::box);
   EXPECT_EQ(thing_named(loaded.world, "worker")->thing_class, ThingClass::worker);
-  const occupancy::OccupancyMap map = occupancy::occupancy_of(loaded.world, {});
-  EXPECT_GT(scenario::draw_scenario(loaded.world, map, {}, 1).route_length, 5.0);
+  const navvi_floor::Voxels voxels = occupancy::voxels_of(loaded.world, {});
+  EXPECT_GT(scenario::draw_scenario(loaded.world, voxels, {}, 1).route_length, 5.0);
 }
 
 TEST_F(SdfWorld, adds_up_poses_of_world_model_link_and_collision) {

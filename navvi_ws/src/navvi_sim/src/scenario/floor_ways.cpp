@@ -2,6 +2,7 @@
 
 #include <array>
 #include <navvi_floor/map_survey.hpp>
+#include <navvi_floor/pieces.hpp>
 #include <utility>
 
 #include "navvi_sim/description/world_description.hpp"
@@ -15,12 +16,10 @@ navvi_floor::Point point_of(const Eigen::Vector2d& place) { return {place.x(), p
 
 }  // namespace
 
-navvi_floor::Floor floor_of(const occupancy::OccupancyMap& map, double floor, double headroom,
+navvi_floor::Floor floor_of(const navvi_floor::Voxels& voxels, double floor, double headroom,
                             double reach) {
-  const navvi_floor::Voxels voxels = navvi_floor::read_voxels(
-      {map.stream().data(), map.stream().size(), true, "OcTree", map.resolution()});
   navvi_floor::SurveyConfig how;
-  how.cell_size = map.resolution();
+  how.cell_size = voxels.resolution;
   how.robot_height = headroom;
   how.climb = 0.0;
   how.floor_height = floor;
@@ -58,8 +57,9 @@ std::vector<std::uint8_t> FloorWays::blocked() const {
 
 Eigen::Vector2d FloorWays::centre(std::size_t cell) const {
   const navvi_floor::Cell low = floor_.origin();
-  return floor_.cell_size() * Eigen::Vector2d(low.x + static_cast<double>(cell % width_) - 0.5,
-                                              low.y + static_cast<double>(cell / width_) - 0.5);
+  const int number = static_cast<int>(cell), width = static_cast<int>(width_);
+  return floor_.cell_size() *
+         Eigen::Vector2d(low.x + number % width - 0.5, low.y + number / width - 0.5);
 }
 
 std::size_t FloorWays::cell_at(const Eigen::Vector2d& point) const {
@@ -140,24 +140,8 @@ std::size_t FloorWays::before(const Ways& ways, std::size_t cell) const {
 
 std::vector<std::uint32_t> FloorWays::parts(double least) const {
   const int gap2 = gap2_of(least);
-  std::vector<std::uint32_t> part(size(), 0);
-  std::uint32_t count = 0;
-  std::vector<std::size_t> open;
-  const auto enter = [&](std::size_t cell) {
-    if (gap2_[cell] < gap2 || part[cell] != 0) return;
-    part[cell] = count;
-    open.push_back(cell);
-  };
-  for (std::size_t first = 0; first < size(); ++first) {
-    if (gap2_[first] < gap2 || part[first] != 0) continue;
-    ++count;
-    for (enter(first); !open.empty();) {
-      const std::size_t cell = open.back();
-      open.pop_back();
-      for_each_neighbour(cell, [&](std::size_t next, float) { enter(next); });
-    }
-  }
-  return part;
+  return navvi_floor::pieces_of(width_, size() / width_, 1,
+                                [&](std::size_t cell) { return gap2_[cell] >= gap2; });
 }
 
 }  // namespace navvi_sim::scenario

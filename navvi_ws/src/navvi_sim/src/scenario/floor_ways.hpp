@@ -7,17 +7,16 @@
 #include <cstdint>
 #include <limits>
 #include <navvi_floor/floor.hpp>
+#include <navvi_floor/octomap_reader.hpp>
 #include <vector>
-
-#include "navvi_sim/occupancy/occupancy_map.hpp"
 
 namespace navvi_sim::scenario {
 
-/// The floor that navigation drives on, as it reads it from the OctoMap: a map of more than 2
+/// The floor that navigation drives on, as it reads it from the OctoMap: one of more than 2
 /// million columns of voxels in cells several voxels wide. \param floor  m, z
 /// \param headroom  m \param reach  m, up to which distances are known
 /// \throws WorldError if the map has no floor there, or is too large
-[[nodiscard]] navvi_floor::Floor floor_of(const occupancy::OccupancyMap& map, double floor,
+[[nodiscard]] navvi_floor::Floor floor_of(const navvi_floor::Voxels& voxels, double floor,
                                           double headroom, double reach);
 
 /// Shortest ways over the cells of a floor, which are numbered row by row.

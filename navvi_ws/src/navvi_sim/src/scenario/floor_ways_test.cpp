@@ -60,7 +60,7 @@ std::pair<int, int> column_of(const Eigen::Vector2d& point, double side = kVoxel
 }
 
 FloorWays ways_over(const occupancy::OccupancyMap& map) {
-  return FloorWays(floor_of(map, 0.0, 1.2, kReach));
+  return FloorWays(floor_of(occupancy::voxels_of(map), 0.0, 1.2, kReach));
 }
 
 TEST(FloorWays, know_the_clearance_of_each_cell_to_half_a_cell) {

@@ -77,6 +77,15 @@ void mark(const FloorWays& ways, const Polygon& polygon, double gap,
 
 }  // namespace
 
+template <typename Condition>
+void FreePlaces::keep(const Condition& condition, double share) {
+  Places kept = those(all_, condition);
+  const double side = side_of(kept);
+  if (static_cast<double>(kept.size()) > share * static_cast<double>(all_.size()) &&
+      (side >= kWide || side >= side_of(all_)))
+    all_ = std::move(kept);
+}
+
 FreePlaces::FreePlaces(const WorldDescription& world, const FloorWays& ways,
                        const ScenarioConfig& config)
     : world_(world), ways_(ways), config_(config), hull_(hull_of_what_stands(world)) {
@@ -135,18 +144,17 @@ std::uint32_t FreePlaces::main_part(const std::vector<std::uint32_t>& part,
   return best == ranks.end() ? 0 : best->first;
 }
 
-void FreePlaces::keep(const std::function<bool(std::size_t)>& condition, double share) {
-  Places kept = those(all_, condition);
-  Eigen::AlignedBox2d extent;
-  for (const std::size_t cell : kept) extent.extend(ways_.centre(cell));
-  Eigen::AlignedBox2d all;
-  for (const std::size_t cell : all_) all.extend(ways_.centre(cell));
-  const auto side = [](const Eigen::AlignedBox2d& box) {
-    return box.isEmpty() ? 0.0 : box.sizes().maxCoeff();
-  };
-  if (static_cast<double>(kept.size()) > share * static_cast<double>(all_.size()) &&
-      side(extent) >= std::min(kWide, side(all)))
-    all_ = std::move(kept);
+double FreePlaces::side_of(const Places& places) const {
+  if (places.empty()) return 0.0;
+  const std::size_t width = ways_.width();
+  std::size_t row = 0, low = width, high = 0;
+  for (const std::size_t cell : places) {
+    while (cell - row >= width) row += width;
+    low = std::min(low, cell - row);
+    high = std::max(high, cell - row);
+  }
+  const std::size_t first = places.front() - places.front() % width;
+  return (ways_.centre(row + high) - ways_.centre(first + low)).maxCoeff();
 }
 
 bool lies_in(const Polygon& hull, const Eigen::Vector2d& place) {

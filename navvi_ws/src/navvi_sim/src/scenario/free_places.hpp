@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <vector>
 
@@ -41,7 +40,10 @@ class FreePlaces {
                                         const std::vector<std::uint8_t>& indoors) const;
   /// Keeps only those that meet the condition, if they are more than this share and do not lie
   /// closer together than a trial needs.
-  void keep(const std::function<bool(std::size_t)>& condition, double share);
+  template <typename Condition>
+  void keep(const Condition& condition, double share);
+  /// m, the longer side of the rectangle around places.
+  [[nodiscard]] double side_of(const Places& places) const;
   void find_quiet();
 
   const WorldDescription& world_;

@@ -52,11 +52,11 @@ std::string thing_at(const WorldDescription& world, const Eigen::Vector2d& at, d
 /// Draws the ends of a route from a seed.
 class ScenarioSampler {
  public:
-  ScenarioSampler(const WorldDescription& world, const occupancy::OccupancyMap& map,
+  ScenarioSampler(const WorldDescription& world, const navvi_floor::Voxels& voxels,
                   const ScenarioConfig& config, std::uint64_t seed)
       : world_(world),
         config_(config),
-        ways_(floor_of(map, world.floor_height, config.robot_height, clear())),
+        ways_(floor_of(voxels, world.floor_height, config.robot_height, clear())),
         places_(world, ways_, config),
         random_(seed) {}
 
@@ -251,7 +251,7 @@ void ScenarioConfig::describe(navvi_config::Visitor& visit) {
   visit(max_route, "max_route", Range{0.0, 10000.0}, "m", "its greatest length; 0: any");
 }
 
-StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::OccupancyMap& map,
+StartAndGoal draw_scenario(const WorldDescription& world, const navvi_floor::Voxels& voxels,
                            const ScenarioConfig& config, std::uint64_t seed,
                            const std::optional<Pose2>& start,
                            const std::optional<Eigen::Vector2d>& goal) {
@@ -259,7 +259,7 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
     throw WorldError("max_route is " + text(config.max_route) +
                      " m, less than min_route; allowed are " + text(config.min_route) +
                      " m or more, or 0 for any");
-  ScenarioSampler sampler(world, map, config, seed);
+  ScenarioSampler sampler(world, voxels, config, seed);
   StartAndGoal drawn = start  ? sampler.with_start(*start, goal)
                        : goal ? sampler.with_goal(*goal)
                               : sampler.with_nothing();
@@ -271,12 +271,12 @@ StartAndGoal draw_scenario(const WorldDescription& world, const occupancy::Occup
   return drawn;
 }
 
-std::vector<Place> free_places_of(const WorldDescription& world, const occupancy::OccupancyMap& map,
+std::vector<Place> free_places_of(const WorldDescription& world, const navvi_floor::Voxels& voxels,
                                   const ScenarioConfig& config) {
   std::vector<Place> places;
   if (world.places.empty()) return places;
   const double clear = config.robot_radius + config.clearance;
-  const FloorWays ways(floor_of(map, world.floor_height, config.robot_height, clear));
+  const FloorWays ways(floor_of(voxels, world.floor_height, config.robot_height, clear));
   for (Place place : world.places) {
     const Eigen::Vector2d middle = place.area.center();
     double nearest = std::numeric_limits<double>::infinity();

@@ -34,14 +34,14 @@ class ScenarioIn : public testing::Test {
  protected:
   void enter(WorldDescription world) {
     world_ = std::move(world);
-    map_ = occupancy::occupancy_of(world_, occupancy::OccupancyConfig{});
+    voxels_ = occupancy::voxels_of(world_, occupancy::OccupancyConfig{});
   }
   StartAndGoal draw(std::uint64_t seed, const std::optional<Pose2>& start = std::nullopt,
                     const std::optional<Eigen::Vector2d>& goal = std::nullopt) {
-    return draw_scenario(world_, map_, ScenarioConfig{}, seed, start, goal);
+    return draw_scenario(world_, voxels_, ScenarioConfig{}, seed, start, goal);
   }
   WorldDescription world_;
-  occupancy::OccupancyMap map_{occupancy::OccupancyConfig{}.resolution, {}};
+  navvi_floor::Voxels voxels_;
 };
 
 TEST_F(ScenarioIn, is_the_same_for_the_same_seed_and_another_for_another) {
@@ -322,7 +322,7 @@ TEST_F(ScenarioIn, has_the_length_that_was_asked_for) {
   config.min_route = 12.0;
   config.max_route = 14.0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const StartAndGoal scenario = draw_scenario(world_, map_, config, seed);
+    const StartAndGoal scenario = draw_scenario(world_, voxels_, config, seed);
     EXPECT_GE(scenario.route_length, 12.0);
     EXPECT_LE(scenario.route_length, 14.0);
     EXPECT_LE((scenario.goal - scenario.start.position).norm(), scenario.route_length + 1e-3);
@@ -337,7 +337,7 @@ TEST_F(ScenarioIn, is_refused_in_a_sentence_where_no_route_is_as_asked_for) {
   contrary.max_route = 5.0;
   for (const ScenarioConfig& config : {too_long, contrary}) {
     try {
-      static_cast<void>(draw_scenario(world_, map_, config, 1));
+      static_cast<void>(draw_scenario(world_, voxels_, config, 1));
       ADD_FAILURE();
     } catch (const WorldError& error) {
       EXPECT_NE(std::string(error.what()), "");

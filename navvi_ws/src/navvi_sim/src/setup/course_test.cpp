@@ -8,8 +8,6 @@ namespace navvi_sim::setup {
 namespace {
 
 void expect_same(const Course& a, const Course& b) {
-  EXPECT_EQ(a.map.resolution(), b.map.resolution());
-  EXPECT_EQ(a.map.stream(), b.map.stream());
   EXPECT_EQ(a.ends.start.position, b.ends.start.position);
   EXPECT_EQ(a.ends.start.yaw, b.ends.start.yaw);
   EXPECT_EQ(a.ends.goal, b.ends.goal);
@@ -52,7 +50,7 @@ TEST_F(CourseOf, another_seed_goal_or_map_is_another_one) {
   EXPECT_EQ(course(&cache).ends.goal, Eigen::Vector2d(1.0, 1.0));
   config_.goal.clear();
   config_.octomap.resolution = 0.1;
-  EXPECT_EQ(course(&cache).map.resolution(), 0.1);
+  EXPECT_EQ(course(&cache).voxels.resolution, 0.1);
   EXPECT_EQ(kept(), 4u);
 }
 

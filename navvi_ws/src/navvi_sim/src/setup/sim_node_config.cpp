@@ -46,6 +46,12 @@ std::string absolute(const std::string& path, std::filesystem::file_type type) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
+occupancy::OccupancyConfig octomap_for_robot(const SimNodeConfig& config) {
+  occupancy::OccupancyConfig octomap = config.octomap;
+  octomap.underside = config.life.robot.clearance;
+  return octomap;
+}
+
 }  // namespace
 
 void SimNodeConfig::describe(navvi_config::Visitor& visit) {
@@ -104,18 +110,20 @@ read::LoadedWorld load_world(const SimNodeConfig& config) {
 }
 
 occupancy::OccupancyMap map_of(const SimNodeConfig& config, const WorldDescription& world) {
-  occupancy::OccupancyConfig octomap = config.octomap;
-  octomap.underside = config.life.robot.clearance;
-  return occupancy::occupancy_of(world, octomap);
+  return occupancy::occupancy_of(world, octomap_for_robot(config));
+}
+
+navvi_floor::Voxels voxels_of(const SimNodeConfig& config, const WorldDescription& world) {
+  return occupancy::voxels_of(world, octomap_for_robot(config));
 }
 
 scenario::StartAndGoal scenario_of(const SimNodeConfig& config, const WorldDescription& world,
-                                   const occupancy::OccupancyMap& map) {
+                                   const navvi_floor::Voxels& voxels) {
   scenario::ScenarioConfig drawing = config.scenario;
   drawing.robot_radius = config.life.robot.radius;
   drawing.robot_height = config.life.robot.height;
   drawing.movers = config.life.movers;
-  return scenario::draw_scenario(world, map, drawing, static_cast<std::uint64_t>(config.seed),
+  return scenario::draw_scenario(world, voxels, drawing, static_cast<std::uint64_t>(config.seed),
                                  config.start_pose(), config.goal_point());
 }
 

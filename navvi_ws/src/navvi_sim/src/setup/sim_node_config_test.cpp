@@ -52,7 +52,7 @@ std::string drawn(SimNodeConfig config, const std::string& world) {
   config.seed = 3;
   const WorldDescription loaded = load_world(config).world;
   return world_hash(loaded) + "\n" +
-         recipe(config, scenario_of(config, loaded, map_of(config, loaded)));
+         recipe(config, scenario_of(config, loaded, voxels_of(config, loaded)));
 }
 
 TEST(SimNodeConfig, draws_the_same_trial_from_a_seed_in_every_profile) {

@@ -162,7 +162,8 @@ JsonFields check(const std::string& world, const std::vector<std::string>& words
   const Request request = load(world, words);
   const setup::SimNodeConfig& session = request.config.session;
   const auto map = setup::map_of(session, request.loaded.world);
-  const scenario::StartAndGoal scenario = setup::scenario_of(session, request.loaded.world, map);
+  const scenario::StartAndGoal scenario = setup::scenario_of(
+      session, request.loaded.world, setup::voxels_of(session, request.loaded.world));
   if (!request.config.octomap.empty()) write_octomap(request.config.octomap, map);
   return fields_of(request, scenario);
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <navvi_config/field.hpp>
 #include <navvi_files/cache.hpp>
+#include <navvi_floor/octomap_reader.hpp>
 #include <navvi_types/guidance.hpp>
 #include <navvi_types/motion.hpp>
 #include <optional>
@@ -36,6 +37,8 @@ class Navigation {
   explicit Navigation(const NavigationConfig& config, const navvi_files::Cache* cache = nullptr);
   ~Navigation();
 
+  /// What an OctoMap would show.
+  void set_map(navvi_floor::Voxels voxels);
   /// \param data  of a binary OctoMap message, as are `id` and `resolution`, m
   void set_map(std::vector<std::int8_t> data, const std::string& id, double resolution);
   void set_obstacles(const navvi_types::Obstacles& obstacles, double time);

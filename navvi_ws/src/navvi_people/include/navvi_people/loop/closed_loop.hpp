@@ -9,13 +9,12 @@
 #include <navvi_msgs/LinkState.h>
 #include <navvi_msgs/Obstacles.h>
 #include <navvi_msgs/Proximity.h>
-#include <octomap_msgs/Octomap.h>
 
 #include <navvi_feedback/core/guide.hpp>
 #include <navvi_files/cache.hpp>
 #include <navvi_nav/lockstep/navigation.hpp>
 #include <navvi_sim/live/session.hpp>
-#include <navvi_sim/setup/sim_node_config.hpp>
+#include <navvi_sim/setup/course.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,9 +45,9 @@ struct ClosedLoopConfig {
 /// A whole session, without ROS and without a clock: world -> navigation -> cues -> operator ->
 /// stick -> wheels -> world. The parts are those that the nodes use, at the nodes' rates, and what
 /// they tell each other are the nodes' messages. What differs: no message is late or lost but by
-/// feedback/link, a plan
-/// is there at the next beat of navigation (50 ms), and a sentence takes as long as it is written
-/// (the figures are in the .cpp). The same config gives the same session, bit for bit.
+/// feedback/link, the simulator's map comes as the voxels that its message would show, a plan is
+/// there at the next beat of navigation (50 ms), and a sentence takes as long as it is written (the
+/// figures are in the .cpp). The same config gives the same session, bit for bit.
 class ClosedLoop {
  public:
   /// What was told in one step, in the order of the loop. Contacts, proximity and obstacles are
@@ -87,7 +86,7 @@ class ClosedLoop {
   [[nodiscard]] const ClosedLoopConfig& config() const { return config_; }
   [[nodiscard]] const navvi_sim::WorldDescription& world() const { return setting_.world; }
   [[nodiscard]] const navvi_sim::scenario::StartAndGoal& scenario() const {
-    return setting_.scenario;
+    return setting_.course.ends;
   }
   [[nodiscard]] const navvi_sim::live::Session& session() const { return session_; }
   [[nodiscard]] const Messages& told() const { return published_; }
@@ -106,8 +105,7 @@ class ClosedLoop {
   /// What is there before anything moves.
   struct Setting {
     navvi_sim::WorldDescription world;
-    navvi_sim::scenario::StartAndGoal scenario;
-    octomap_msgs::Octomap map;
+    navvi_sim::setup::Course course;
     std::optional<RobotSenses> senses = {};  ///< where the truth is not told
 
     Setting(const ClosedLoopConfig& config, const navvi_files::Cache* cache);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <navvi_config/field.hpp>
+#include <navvi_floor/octomap_reader.hpp>
 
 #include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/occupancy/occupancy_map.hpp"
@@ -33,5 +34,12 @@ struct OccupancyConfig {
 /// side), or the map comes to more than the 64 MiB that navigation takes
 [[nodiscard]] OccupancyMap occupancy_of(const WorldDescription& world,
                                         const OccupancyConfig& config);
+
+/// What navigation reads of a map.
+[[nodiscard]] navvi_floor::Voxels voxels_of(const OccupancyMap& map);
+/// The same voxels as of occupancy_of(world, config), the boxes of the world as boxes: no tree is
+/// written of them and read again, and none is too large.
+[[nodiscard]] navvi_floor::Voxels voxels_of(const WorldDescription& world,
+                                            const OccupancyConfig& config);
 
 }  // namespace navvi_sim::occupancy

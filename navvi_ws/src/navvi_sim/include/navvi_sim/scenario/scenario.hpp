@@ -3,13 +3,13 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <navvi_config/field.hpp>
+#include <navvi_floor/octomap_reader.hpp>
 #include <navvi_types/headroom.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
-#include "navvi_sim/occupancy/occupancy_map.hpp"
 #include "navvi_sim/traffic/movers_config.hpp"
 
 namespace navvi_sim::scenario {
@@ -44,20 +44,21 @@ struct StartAndGoal {
 /// enough, and, where the world has such places, off the ground that movers sweep: a robot that
 /// stood there would keep them from going on. A goal that is given is passed on as it is, free or
 /// not: refusing it is navigation's task. A drawn start looks along its route. The length that is
-/// asked for holds for every route of which an end is drawn. \param map  of `world` (occupancy.hpp)
+/// asked for holds for every route of which an end is drawn.
+/// \param voxels  of `world` (occupancy.hpp)
 /// \throws WorldError as swept_ground, or if a given start is not finite, in an obstacle or off the
 /// floor, if the map has no floor, or if the world has no free place, or none for a route as long
 /// as asked for, or of 1 m
 [[nodiscard]] StartAndGoal draw_scenario(const WorldDescription& world,
-                                         const occupancy::OccupancyMap& map,
+                                         const navvi_floor::Voxels& voxels,
                                          const ScenarioConfig& config, std::uint64_t seed,
                                          const std::optional<Pose2>& start = std::nullopt,
                                          const std::optional<Eigen::Vector2d>& goal = std::nullopt);
 
 /// The world's places in which the robot can stand, each with the free point that is nearest to its
-/// middle. \param map  of `world`
+/// middle. \param voxels  of `world`
 [[nodiscard]] std::vector<Place> free_places_of(const WorldDescription& world,
-                                                const occupancy::OccupancyMap& map,
+                                                const navvi_floor::Voxels& voxels,
                                                 const ScenarioConfig& config);
 
 }  // namespace navvi_sim::scenario

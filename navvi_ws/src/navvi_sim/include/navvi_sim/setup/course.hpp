@@ -2,7 +2,6 @@
 
 #include <navvi_files/cache.hpp>
 
-#include "navvi_sim/occupancy/occupancy_map.hpp"
 #include "navvi_sim/scenario/scenario.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 
@@ -10,11 +9,11 @@ namespace navvi_sim::setup {
 
 /// What a trial needs of its world before anything moves.
 struct Course {
-  occupancy::OccupancyMap map;
+  navvi_floor::Voxels voxels;
   scenario::StartAndGoal ends;
 };
 
-/// By map_of and scenario_of, or as they once were for the same world and config.
+/// By voxels_of, and scenario_of or what that once was for the same world and config.
 /// \param world  of load_world \param cache  nullptr: nothing is kept
 /// \throws ConfigError or WorldError with a sentence
 [[nodiscard]] Course course_of(const SimNodeConfig& config, const WorldDescription& world,

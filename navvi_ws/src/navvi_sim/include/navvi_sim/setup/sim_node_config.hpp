@@ -54,13 +54,16 @@ struct SimNodeConfig {
 /// The map of `world` for this robot. \throws WorldError with a sentence
 [[nodiscard]] occupancy::OccupancyMap map_of(const SimNodeConfig& config,
                                              const WorldDescription& world);
+/// What navigation reads of that map.
+[[nodiscard]] navvi_floor::Voxels voxels_of(const SimNodeConfig& config,
+                                            const WorldDescription& world);
 
 /// Start and goal: as given, and drawn from the seed where they are not.
-/// \param map  by map_of
+/// \param voxels  by voxels_of
 /// \throws ConfigError or WorldError with a sentence
 [[nodiscard]] scenario::StartAndGoal scenario_of(const SimNodeConfig& config,
                                                  const WorldDescription& world,
-                                                 const occupancy::OccupancyMap& map);
+                                                 const navvi_floor::Voxels& voxels);
 
 /// Every parameter as YAML, with the scenario's start and goal written exactly and the world's path
 /// absolute: with them the same world is played again, and nothing is drawn.
