@@ -65,7 +65,7 @@ TEST_F(PlacesFileTest, names_line_key_and_what_is_allowed_where_it_is_wrong) {
            {"- {name: [a], x: 1, y: 2}",
             "line 1: \"name\" is a list or map; allowed is a text."},
            {"- {name: a, x: 1, y: 2, yaw: 3}",
-            "line 1: the key \"yaw\" is unknown; known here are name, x, y."},
+            "line 1: the key \"yaw\" is unknown; known here are do, name, x, y."},
            {"- {name: a, x: 1, x: 2, y: 3}", "line 1: the key \"x\" is given twice."},
            {good + "- {name: a, x: 1}", "line 2: a place lacks \"y\"; it must have name, x and y."},
            {good + "- gate", "line 2: there must be a map of keys and values."},

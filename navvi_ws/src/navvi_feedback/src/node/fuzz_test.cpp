@@ -19,14 +19,19 @@ std::string text_of(const std::string& path) {
 }
 
 TEST(FuzzFiles, places_are_read_or_refused) {
-  navvi_test::fuzz({"- {name: desk, x: 1.5, y: -2}\n- name: the door\n  x: 3\n  y: 4.25\n"}, "a.yaml",
-                   [](const std::string& path) { static_cast<void>(menu::read_places(path)); });
+  const std::string places =
+      "- {name: desk, x: 1.5, y: -2}\n- name: the door\n  x: 3\n  y: 4.25\n  do: scan\n";
+  navvi_test::fuzz({places}, "a.yaml", [](const std::string& path) {
+    static_cast<void>(menu::read_places(path));
+  });
 }
 
 TEST(FuzzFiles, questions_are_read_or_refused) {
-  const std::string tlx = NAVVI_FEEDBACK_CONFIG_DIR "/../../navvi_study/studies/questionnaires/tlx.yaml";
-  navvi_test::fuzz({text_of(tlx)}, "a.yaml",
-                   [](const std::string& path) { static_cast<void>(lessons::read_questions(path)); });
+  const std::string tlx =
+      NAVVI_FEEDBACK_CONFIG_DIR "/../../navvi_study/studies/questionnaires/tlx.yaml";
+  navvi_test::fuzz({text_of(tlx)}, "a.yaml", [](const std::string& path) {
+    static_cast<void>(lessons::read_questions(path));
+  });
 }
 
 TEST(FuzzFiles, phrases_are_read_or_refused) {

@@ -214,7 +214,8 @@ void TrialKeeper::arm() {
     return leave(3);
   }
   kept_.bag = BagWatch(
-      config_.record != "none" ? outlets_.start_recorder(kept_.folder / "trial.bag") : nullptr, now_.wall());
+      config_.record != "none" ? outlets_.start_recorder(kept_.folder / "trial.bag") : nullptr,
+      now_.wall());
   kept_.bag_lost = false;
   enter(Phase::armed);
   shown_.said = phase_since_;
@@ -291,8 +292,8 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
     fields.set("pressed", 1e-9 * static_cast<double>(*pressed), 3);
   if (!job_.places.empty()) {
     const auto& place = job_.places[job_.reached];
-    fields.set("job_place", static_cast<std::uint64_t>(job_.reached + 1)).set("job_name", place.name);
-    fields.set("job_task", to_string(place.task));
+    fields.set("job_place", static_cast<std::uint64_t>(job_.reached + 1));
+    fields.set("job_name", place.name).set("job_task", to_string(place.task));
   }
   fields.set("voice", readiness_.trait("speech", "voice"));
   fields.set("pad_name", readiness_.trait("pad", "name"));

@@ -362,12 +362,15 @@ TEST_F(Trials, follow_on_one_another_where_more_than_one_is_wanted) {
 }
 
 TEST_F(Trials, of_a_job_lead_from_place_to_place_and_wait_for_what_is_done_there) {
-  config_.job = folder_.write(
-      "job.yaml", "- {name: packing table, x: 3, y: 0, do: pick}\n- {name: dock, x: 6, y: 0, do: drop}\n");
+  config_.job = folder_.write("job.yaml",
+                              "- {name: packing table, x: 3, y: 0, do: pick}\n"
+                              "- {name: dock, x: 6, y: 0, do: drop}\n");
   config_.out = (folder_ / "out").string();
   config_.press_to_start = true;
   offer();
-  const auto press = [&] { keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now()); };
+  const auto press = [&] {
+    keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+  };
   live(1.0);
   EXPECT_EQ(waits_.state, TrialState::State::ready) << "the scenario's goal is none of the job's";
   EXPECT_EQ(waits_.place, "");
@@ -376,12 +379,14 @@ TEST_F(Trials, of_a_job_lead_from_place_to_place_and_wait_for_what_is_done_there
   keeper_->take(TrialRequest{TrialRequest::Kind::end, now().ros_ns}, now());
   live(9.0);
   EXPECT_EQ(waits_.place, "") << "ended by the person, and not reached";
+  using Task = TrialState::Task;
   for (const auto& [name, x, task] :
-       {std::tuple("packing table", 3.0, TrialState::Task::pick), std::tuple("dock", 6.0, TrialState::Task::drop)}) {
+       {std::tuple("packing table", 3.0, Task::pick), std::tuple("dock", 6.0, Task::drop)}) {
     press();
     live(1.0, State::following, {x, 0.0});
     EXPECT_EQ(goals_.back().x(), x);
-    EXPECT_NE(content("journal.csv").find("job_task=" + std::string(to_string(task))), std::string::npos);
+    EXPECT_NE(content("journal.csv").find(std::string("job_task=") + to_string(task)),
+              std::string::npos);
     live(9.0, State::arrived, {x, 0.0});
     EXPECT_EQ(waits_.state, TrialState::State::ready);
     EXPECT_EQ(waits_.place, name);
