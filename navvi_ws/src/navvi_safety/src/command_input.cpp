@@ -1,11 +1,20 @@
 #include "navvi_safety/command_input.hpp"
 
 #include <ros/console.h>
+#include <ros/network.h>
 
 #include <algorithm>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_safety {
+
+ros::TransportHints command_transport() {
+  const std::string& host = ros::network::getHost();
+  const bool alone = host == "localhost" || host.rfind("127.", 0) == 0;
+  ros::TransportHints hints;
+  if (!alone) hints.unreliable();
+  return hints.reliable().tcpNoDelay();
+}
 
 unsigned CommandInput::link_of(const Header& header) {
   links_.erase(std::remove_if(links_.begin(), links_.end(),

@@ -8,7 +8,6 @@
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
 #include <navvi_types/msg_conversion.hpp>
-#include <navvi_types/subscribe.hpp>
 
 namespace {
 
@@ -45,7 +44,7 @@ int main(int argc, char** argv) {
     };
     ros::Subscriber commands = node.subscribe<geometry_msgs::TwistStamped, const Command&>(
         "navvi/command", navvi_safety::kCommandQueue, receive, {},
-        navvi_types::steady_transport());
+        navvi_safety::command_transport());
     ros::Subscriber near;
     if (config.gate.assistance != "off")
       near = navvi_safety::see_by(node, "navvi/proximity", gate, instant);

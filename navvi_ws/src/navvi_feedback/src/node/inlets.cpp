@@ -50,9 +50,8 @@ void Inlets::complete(senses::Devices& devices) {
 }
 
 template <typename Msg, typename Take>
-void Inlets::listen(const std::string& topic, std::uint32_t queue, Take take, bool steady) {
-  subscribers_.push_back(
-      navvi_types::subscribe<Msg>(node_, topic, queue, from_msg, take, {}, {}, steady));
+void Inlets::listen(const std::string& topic, std::uint32_t queue, Take take) {
+  subscribers_.push_back(navvi_types::subscribe<Msg>(node_, topic, queue, from_msg, take));
 }
 
 void Inlets::subscribe_to_hands() {
@@ -111,7 +110,7 @@ void Inlets::subscribe_to_robot(const NodeConfig& config) {
     devices_.latencies().add(Chain::sensed, Latencies::Clock::now() - age);
     guide_.take(proximity, now());
     beat_(Chain::motors);
-  }, true);
+  });
   listen<navvi_msgs::Contact>("navvi/contacts", 100, [this](const auto& contact) {
     guide_.take(contact, now());
     beat_(Chain::pattern);
@@ -120,16 +119,16 @@ void Inlets::subscribe_to_robot(const NodeConfig& config) {
     const bool news = !guide_.guidance() || guide_.guidance()->state != guidance.state;
     guide_.take(guidance, now());
     if (news) beat_(std::nullopt);
-  }, true);
+  });
   listen<navvi_msgs::DriveState>("navvi/drive_state", 1, [this](navvi_types::DriveState state) {
     twin_ = state.intruder == ros::this_node::getName();
     if (twin_) state.intruder.clear();
     guide_.take(state, now());
   });
   listen<navvi_msgs::LinkState>("navvi/link", 1,
-                                [this](const auto& link) { guide_.take(link, now()); }, true);
+                                [this](const auto& link) { guide_.take(link, now()); });
   listen<nav_msgs::Odometry>("odom", 1,
-                             [this](const auto& odometry) { guide_.take(odometry, now()); }, true);
+                             [this](const auto& odometry) { guide_.take(odometry, now()); });
   listen<nav_msgs::Path>("navvi/path", 1, [this](const auto& path) { path_ = path; });
   listen<nav_msgs::Path>("navvi/preview", 1, [this](const auto& path) { preview_ = path; });
 }

@@ -41,9 +41,8 @@ class Inlets {
   [[nodiscard]] const std::vector<Eigen::Vector2d>& preview() const { return preview_; }
 
  private:
-  /// \param steady  as for navvi_types::steady_transport()
   template <typename Msg, typename Take>
-  void listen(const std::string& topic, std::uint32_t queue, Take take, bool steady = false);
+  void listen(const std::string& topic, std::uint32_t queue, Take take);
   void subscribe_to_hands();
   void receive(drive::InputState joy, devices::InputSource& source);
   void subscribe_to_robot(const NodeConfig& config);

@@ -16,6 +16,10 @@ namespace navvi_safety {
 /// would push those of the driver out.
 constexpr int kCommandQueue = 100;
 
+/// How commands come: from another machine by UDP, so that one that is lost holds up none that
+/// follow.
+[[nodiscard]] ros::TransportHints command_transport();
+
 /// Passes commands on to the gate if their publisher may drive; warns of what is rejected.
 class CommandInput {
  public:

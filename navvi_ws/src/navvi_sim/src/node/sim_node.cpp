@@ -8,7 +8,6 @@
 #include <map>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
-#include <navvi_types/subscribe.hpp>
 
 #include "live/pacer.hpp"
 #include "navvi_sim/live/session.hpp"
@@ -87,7 +86,7 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
   ros::NodeHandle commands_node;
   commands_node.setCallbackQueue(&commands_queue_);
   commands_ = commands_node.subscribe("navvi/command", navvi_safety::kCommandQueue, &SimNode::receive,
-                                      this, navvi_types::steady_transport());
+                                      this, navvi_safety::command_transport());
   if (config_.gate.assistance != "off")
     near_ = navvi_safety::see_by(
         commands_node, config_.sensing == "truth" ? "navvi/proximity" : "navvi/seen/proximity",

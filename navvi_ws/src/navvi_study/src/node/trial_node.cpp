@@ -189,24 +189,22 @@ class TrialNode {
   }
 
   void subscribe(const std::string& odom_frame) {
-    take<nav_msgs::Odometry>("odom", true);
+    take<nav_msgs::Odometry>("odom");
     take<navvi_msgs::Contact>("navvi/contacts");
-    take<navvi_msgs::Proximity>("navvi/proximity", true);
+    take<navvi_msgs::Proximity>("navvi/proximity");
     take<navvi_msgs::Cue>("navvi/cues");
     take<navvi_msgs::DriveState>("navvi/drive_state");
     take<navvi_msgs::LinkState>("navvi/link");
-    take<navvi_msgs::Guidance>("navvi/guidance", true);
+    take<navvi_msgs::Guidance>("navvi/guidance");
     take<navvi_msgs::Scenario>("navvi/scenario");
     take<navvi_msgs::TrialRequest>("navvi/trial_request");
     take<navvi_msgs::StateHash>("navvi/state_hash");
     for (const bool for_good : {false, true}) {
       listen<tf2_msgs::TFMessage>(
-          for_good ? "/tf_static" : "/tf",
-          [this, for_good, odom_frame](auto& msg) {
+          for_good ? "/tf_static" : "/tf", [this, for_good, odom_frame](auto& msg) {
             for (const auto& correction : from_msg(msg, for_good, odom_frame))
               keeper_.take(correction, now());
-          },
-          for_good ? ros::TransportHints().tcpNoDelay() : navvi_types::steady_transport());
+          });
     }
     listen<sensor_msgs::TimeReference>("navvi/time_reference", [this](auto& msg) {
       if (const auto clock = from_msg(msg)) keeper_.take(*clock, now());
@@ -221,19 +219,18 @@ class TrialNode {
   }
 
   template <typename Message, typename Callback>
-  void listen(const std::string& topic, const Callback& callback,
-              const ros::TransportHints& hints = ros::TransportHints().tcpNoDelay()) {
+  void listen(const std::string& topic, const Callback& callback) {
     subscribers_.push_back(node_.subscribe<Message>(
         topic, kQueue, [callback](const typename Message::ConstPtr& msg) { callback(*msg); },
-        ros::VoidConstPtr(), hints));
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }
 
   /// The keeper takes the messages of `topic`; bad ones are dropped and counted.
   template <typename Message>
-  void take(const std::string& topic, bool steady = false) {
-    const auto pass_on = [this](const auto& value) { keeper_.take(value, now()); };
-    subscribers_.push_back(navvi_types::subscribe<Message>(
-        node_, topic, kQueue, navvi_types::from_msg, pass_on, {}, {}, steady));
+  void take(const std::string& topic) {
+    subscribers_.push_back(
+        navvi_types::subscribe<Message>(node_, topic, kQueue, navvi_types::from_msg,
+                                        [this](const auto& value) { keeper_.take(value, now()); }));
   }
 
   void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {

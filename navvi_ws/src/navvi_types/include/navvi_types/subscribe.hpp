@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 #include <ros/message_traits.h>
-#include <ros/network.h>
 #include <ros/node_handle.h>
 
 #include <algorithm>
@@ -48,47 +47,18 @@ class Once {
   return frame.substr(!frame.empty() && frame.front() == '/' ? 1 : 0);
 }
 
-/// For small messages that come again and again: from another machine by UDP, so that one that is
-/// lost holds up none that follow.
-[[nodiscard]] inline ros::TransportHints steady_transport() {
-  const std::string& host = ros::network::getHost();
-  const bool alone = host == "localhost" || host.rfind("127.", 0) == 0;
-  ros::TransportHints hints;
-  if (!alone) hints.unreliable();
-  return hints.reliable().tcpNoDelay();
-}
-
-/// Finds messages that come by UDP and were overtaken by a later one. Of a clock that is set back,
-/// as by a simulator that begins anew, none was.
-class Overtaken {
- public:
-  bool operator()(const ros::Time& stamp) {
-    constexpr double kLongest = 3.0;  // s
-    const double back = (last_ - stamp).toSec();
-    if (back > 0.0 && back < kLongest) return true;
-    last_ = stamp;
-    return false;
-  }
-
- private:
-  ros::Time last_;
-};
-
 /// Subscribes to `topic` without delay: `convert` turns each message into the value for `take`. A
 /// message that it rejects, or that is not in `frame` (empty: in any), is dropped whole, and each
 /// kind of reason is logged once (safety rule 2). \param convert  to std::optional or Checked
 /// \param rejected  is called with the reason for each such message
-/// \param steady  as for steady_transport()
 template <typename Message, typename Result, typename Take>
 [[nodiscard]] ros::Subscriber subscribe(
     ros::NodeHandle& node, const std::string& topic, std::uint32_t queue,
     Result (*convert)(const Message&), Take take, const std::string& frame = {},
-    const std::function<void(const std::string&)>& rejected = {}, bool steady = false) {
+    const std::function<void(const std::string&)>& rejected = {}) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
       [topic, convert, take, frame, rejected,
-       once = Once(), steady, overtaken = Overtaken()](const boost::shared_ptr<const Message>& msg) mutable {
-        const ros::Time* const stamp = ros::message_traits::timeStamp(*msg);
-        if (steady && stamp != nullptr && overtaken(*stamp)) return;
+       once = Once()](const boost::shared_ptr<const Message>& msg) mutable {
         const std::string* const in = ros::message_traits::frameId(*msg);
         const Result value = convert(*msg);
         const bool here = frame.empty() || (in && without_slash(*in) == frame);
@@ -102,7 +72,7 @@ template <typename Message, typename Result, typename Take>
         if (rejected) rejected(why);
       };
   return node.subscribe<Message>(topic, queue, callback, ros::VoidConstPtr(),
-                                 steady ? steady_transport() : ros::TransportHints().tcpNoDelay());
+                                 ros::TransportHints().tcpNoDelay());
 }
 
 }  // namespace navvi_types

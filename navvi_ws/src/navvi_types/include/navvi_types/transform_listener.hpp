@@ -79,8 +79,7 @@ class TransformListener {
         receive(event, fixed);
       };
       return node_.subscribe<tf2_msgs::TFMessage>(topic, kQueue, take, ros::VoidConstPtr(),
-                                                  fixed ? ros::TransportHints().tcpNoDelay()
-                                                        : steady_transport());
+                                                  ros::TransportHints().tcpNoDelay());
     };
     moving_ = listen("/tf", false);
     fixed_ = listen("/tf_static", true);
