@@ -113,36 +113,44 @@ TileCells fine_cells(const map::Floor& floor, map::Cell low, int part, int parts
   return out;
 }
 
-/// A square's fine cells by what they belong to, numbered from 1 on; 0: to none.
+/// A square's cells by what they belong to, numbered from 1 on; 0: to none.
 struct Pieces {
   int side = 0;                      // fine cells
+  int parts = 0;                     // of a whole cell's side
   std::vector<std::uint32_t> fine;   // pieces of the fine open cells
-  std::vector<std::uint32_t> whole;  // of the whole open cells
+  std::vector<std::uint32_t> whole;  // whole cell by whole cell: of those that are open
   std::vector<std::uint32_t> exits;  // of the fine ones along the square's rim
+
+  [[nodiscard]] std::uint32_t whole_at(int x, int y) const {
+    return whole[static_cast<std::size_t>(y / parts * (side / parts) + x / parts)];
+  }
 };
 
 Pieces pieces_in(const TileCells& fine, const map::Floor& floor, int parts) {
   const int side = fine.size;
-  std::vector<char> open, whole, rim;
+  std::vector<std::uint8_t> open, whole;
   for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const bool on_rim = x == 0 || y == 0 || x == side - 1 || y == side - 1;
-      const map::Cell cell{fine.origin.x / parts + x / parts, fine.origin.y / parts + y / parts};
-      open.push_back(static_cast<char>(fine.is_open(x, y)));
-      whole.push_back(static_cast<char>(floor.open(cell)));
-      rim.push_back(static_cast<char>(on_rim && fine.is_open(x, y)));
-    }
+    const auto row = fine.open.begin() + (y + kBorder) * (side + 2 * kBorder) + kBorder;
+    open.insert(open.end(), row, row + side);
   }
-  const auto pieces = [side](const std::vector<char>& mask) {
-    const auto size = static_cast<std::size_t>(side);
+  for (int y = 0; y < side; y += parts)
+    for (int x = 0; x < side; x += parts)
+      whole.push_back(floor.open({(fine.origin.x + x) / parts, (fine.origin.y + y) / parts}));
+  const auto pieces = [](const std::vector<std::uint8_t>& mask, int across) {
+    const auto size = static_cast<std::size_t>(across);
     return map::pieces_of(size, size, 0, [&mask](std::size_t at) { return mask[at] != 0; });
   };
-  return {side, pieces(open), pieces(whole), pieces(rim)};
+  Pieces out{side, parts, pieces(open, side), pieces(whole, side / parts), {}};
+  for (int y = 1; y < side - 1; ++y)
+    std::fill_n(open.begin() + y * side + 1, side - 2, std::uint8_t{0});
+  out.exits = pieces(open, side);
+  return out;
 }
 
 /// For each exit whether a whole open cell of its piece lies beside it. Then what is beyond is left
 /// to the next square, which overlaps this one by two cells and so has both.
-std::vector<char> exits_at_cells(const Pieces& of, int parts) {
+std::vector<char> exits_at_cells(const Pieces& of) {
+  const int parts = of.parts;
   std::vector<char> out(of.exits.size() + 1, 0);
   for (int at = 0; at < of.side * of.side; ++at) {
     const auto i = static_cast<std::size_t>(at);
@@ -152,7 +160,7 @@ std::vector<char> exits_at_cells(const Pieces& of, int parts) {
       const int x = at % of.side + dx, y = at / of.side + dy;
       if (x < 0 || y < 0 || x >= of.side || y >= of.side) continue;
       const auto beside = static_cast<std::size_t>(y * of.side + x);
-      if (of.whole[beside] != 0 && of.fine[beside] == of.fine[i])
+      if (of.whole_at(x, y) != 0 && of.fine[beside] == of.fine[i])
         out[of.exits[i]] = 1;
     }
   }
@@ -162,17 +170,21 @@ std::vector<char> exits_at_cells(const Pieces& of, int parts) {
 /// True if a piece of the fine cells joins two ends, whole cells or exits, that are apart without.
 bool opens_a_way(const TileCells& fine, const map::Floor& floor, int parts) {
   const Pieces of = pieces_in(fine, floor, parts);
-  const std::vector<char> at_cells = exits_at_cells(of, parts);
+  const std::vector<char> at_cells = exits_at_cells(of);
   const auto cells = static_cast<std::uint32_t>(of.fine.size());
   std::vector<std::uint32_t> first(of.fine.size() + 1, 0);
-  for (std::size_t at = 0; at < of.fine.size(); ++at) {
-    const std::uint32_t exit = of.exits[at];
-    std::uint32_t end = of.whole[at];
-    if (end == 0 && exit != 0 && at_cells[exit] == 0) end = cells + exit;
-    if (of.fine[at] == 0 || end == 0) continue;
-    std::uint32_t& known = first[of.fine[at]];
-    if (known != 0 && known != end) return true;
-    known = end;
+  std::size_t at = 0;
+  for (int y = 0; y < of.side; ++y) {
+    for (int x = 0; x < of.side; ++x, ++at) {
+      if (of.fine[at] == 0) continue;
+      const std::uint32_t exit = of.exits[at];
+      std::uint32_t end = of.whole_at(x, y);
+      if (end == 0 && exit != 0 && at_cells[exit] == 0) end = cells + exit;
+      if (end == 0) continue;
+      std::uint32_t& known = first[of.fine[at]];
+      if (known != 0 && known != end) return true;
+      known = end;
+    }
   }
   return false;
 }
