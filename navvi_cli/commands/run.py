@@ -82,7 +82,7 @@ def far_session(given):
         words.parameters.append("trial/record:=robot")
     prepare(words, ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])], [FEEDBACK], check_parameters)
     network = FarNetwork(where)
-    words["patience"] = "300"  # over a slow connection nodes take their time to meet
+    words["patience"] = "900"  # over a slow connection nodes take their time to meet
     words["clock"] = network.clock()
     begin = time.time_ns()
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"

@@ -98,7 +98,8 @@ class ShapeInserter {
     return std::min(kReach * resolution_, thickness / 4.0);
   }
 
-  /// All columns of a solid that stands upright have the same layers of it: a box a row.
+  /// All columns of a solid that stands upright have the same layers of it: a box a row. It always
+  /// has its middle voxel, as `reach` is a quarter of the thickness at most.
   /// \param half  m, of its extent
   template <typename Upright>
   void add_upright(const Upright& solid, double reach, const Eigen::Vector3d& half) const {
