@@ -77,6 +77,7 @@ def papers(tmp_path_factory):
     (folder / "my_models").mkdir()
     for name in "my.world", "my_map.bt":
         (folder / name).touch()
+    (folder / "round.yaml").write_text("- {name: packing table, x: -23.9, y: 2.8, do: pick}\n")
     (folder / "study").mkdir()
     for plan in "plan.yaml", "study/plan.yaml":
         shutil.copy(ROOT / "navvi_ws/src/navvi_study/studies/example_plan.yaml", folder / plan)
