@@ -82,6 +82,20 @@ class ColladaNodes {
         refuse("has a <" + shown + "> that holds more than indices; allowed are whole numbers");
   }
 
+  /// Assimp reads beyond an array that is shorter than what its accessor names.
+  void check_source(const tinyxml2::XMLElement& source) const {
+    const auto* const technique = source.FirstChildElement("technique_common");
+    const auto* const accessor =
+        technique == nullptr ? nullptr : technique->FirstChildElement("accessor");
+    const auto* const array = source.FirstChildElement("float_array");
+    if (accessor == nullptr || array == nullptr) return;
+    const double stride = accessor->DoubleAttribute("stride", 1.0);
+    const double needed =
+        accessor->DoubleAttribute("offset") + accessor->DoubleAttribute("count") * stride;
+    if (needed > array->DoubleAttribute("count"))
+      refuse("has a <float_array> with a smaller count than its <accessor> reads");
+  }
+
   /// \param node  around the element; kNone outside of any
   void read(const tinyxml2::XMLElement& element, std::size_t node) {
     check_numbers(element);
@@ -105,6 +119,7 @@ class ColladaNodes {
     for (const auto* child = element.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement())
       read(*child, node);
+    if (name == "source") check_source(element);
   }
 
   void count_pieces(std::size_t pieces) const {

@@ -65,6 +65,12 @@ TEST_F(MeshFile, takes_collada_apart_node_by_node) {
   EXPECT_EQ(triangles_, 5000U);
 }
 
+TEST_F(MeshFile, refuses_collada_whose_array_is_shorter_than_what_is_read_of_it) {
+  std::string text = collada("", "<node id='n'>" + kPiece + "</node>");
+  text.replace(text.find("count='9'"), 9, "count='0'");
+  EXPECT_NE(refusal("a.dae", text).find("smaller count"), std::string::npos);
+}
+
 TEST_F(MeshFile, refuses_collada_nodes_that_instance_themselves) {
   for (const auto& [library, scene] : std::vector<std::pair<std::string, std::string>>{
            {"", "<node id='n'>" + kPiece + "<instance_node url='#n'/></node>"},
