@@ -135,6 +135,9 @@ class FarNetwork(Network):
             fail(f"the ROS master at {host}, port {self.port} knows no robot's side; \"./navvi robot start\" starts it there.", 2)
         if taken := self.nodes & {"/feedback_node", "/trial_node"}:
             fail(f"somebody drives this robot already: {' and '.join(sorted(taken))} run; one person at a time is allowed.", 2)
+        from .near_master import NearMaster  # needs ROS
+        self.near = NearMaster(self.uri)
+        self.uri = self.near.uri
         self.enter()
 
     def clock(self):

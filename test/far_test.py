@@ -87,7 +87,7 @@ def session(tmp_path):
     session.close()
 
 
-@pytest.mark.parametrize("delay", [0.02, 0.2])
+@pytest.mark.parametrize("delay", [0.02, 0.2, 1.0])
 def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(session, delay):
     session.wire.delay = delay
     said = session.drive()

@@ -87,7 +87,9 @@ def far_session(given):
     begin = time.time_ns()
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
     announce(words, log, network, f"the robot at {where}")
-    return drive(launch_file, words, log, network, begin)
+    status = drive(launch_file, words, log, network, begin)
+    network.near.finish(60.0)
+    return status
 
 
 HERE = {"sensing": "truth", "world": "warehouse"}

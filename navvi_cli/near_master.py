@@ -1,0 +1,82 @@
+"""The ROS master of a robot on another machine, brought near to the person's nodes, which ask their master hundreds of questions one after the other.
+
+Parameters are answered here and changed there, too. What a node registers is passed on while the node goes on; the publishers of a topic come to
+it as the master sends all later changes. Everything else is asked there.
+"""
+import queue
+import threading
+import time
+import xmlrpc.client
+
+import rosgraph.xmlrpc
+from rosmaster.master_api import ROSMasterHandler
+
+CHANGES = ("setParam", "deleteParam")
+HERE = (*CHANGES, "getPid", "getParam", "hasParam", "getParamNames", "searchParam", "subscribeParam", "unsubscribeParam")
+AT_ONCE = 64  # what is passed on at the same time
+AGAIN = 1.0   # s
+
+
+class NearMaster:
+    def __init__(self, uri):
+        """Of the master at that URI. `uri` is its own."""
+        self.far, self.of_thread = uri, threading.local()
+        self.own = ROSMasterHandler(num_workers=1)
+        self.own.setParam("/navvi", "/", self.ask("getParam", "/navvi", "/")[2])
+        self.waiting = [queue.Queue() for _ in range(AT_ONCE)]
+        for one in self.waiting:
+            threading.Thread(target=self.pass_on, args=(one,), daemon=True).start()
+        server = rosgraph.xmlrpc.ThreadingXMLRPCServer(("127.0.0.1", 0), log_requests=0)
+        server.register_multicall_functions()
+        server.register_instance(self)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        self.uri = f"http://127.0.0.1:{server.server_address[1]}"
+
+    def ask(self, method, *words):
+        if not hasattr(self.of_thread, "master"):
+            self.of_thread.master = xmlrpc.client.ServerProxy(self.far, allow_none=True)
+        return getattr(self.of_thread.master, method)(*words)
+
+    def _dispatch(self, method, words):
+        if method in HERE:
+            if method in CHANGES:
+                self.waiting[0].put((method, words))
+            return getattr(self.own, method)(*words)
+        if method.startswith(("register", "unregister")):
+            self.waiting[hash(words[:2]) % AT_ONCE].put((method, words))  # in order for each node and topic
+            return 1, "passed on", []
+        return self.ask(method, *words)
+
+    def pass_on(self, waiting):
+        while True:
+            method, words = waiting.get()
+            answer = self.insist(method, words)
+            if method == "registerSubscriber":
+                self.tell(words, answer[2])
+                # A change that the master sent just after this answer may have been overtaken by it.
+                time.sleep(AGAIN)
+                if (later := self.insist(method, words)[2]) != answer[2]:
+                    self.tell(words, later)
+            waiting.task_done()
+
+    def insist(self, method, words):
+        while True:
+            try:
+                return self.ask(method, *words)
+            except OSError:
+                del self.of_thread.master
+                time.sleep(AGAIN)
+
+    @staticmethod
+    def tell(subscriber, publishers):
+        _, topic, _, address = subscriber
+        try:
+            xmlrpc.client.ServerProxy(address).publisherUpdate("/master", topic, publishers)
+        except OSError:  # it has ended
+            pass
+
+    def finish(self, seconds):
+        """Waits until all that was registered and taken back is known there."""
+        deadline = time.monotonic() + seconds
+        while any(one.unfinished_tasks for one in self.waiting) and time.monotonic() < deadline:
+            time.sleep(0.1)
