@@ -2,7 +2,9 @@
 // at the address ROS_IP alone, such as that of a tunnel, or on the loopback interface. roscpp offers
 // no setting for its XML-RPC port. No small message waits for the acknowledgement of the last one,
 // which takes a round trip: ROS leaves that to each subscriber, and its own /clock and calls of the
-// master have no setting. And each ends with roslaunch, ROS's own programs too.
+// master have no setting. Where a connection is slow, messages wait in ROS's short queue, which
+// drops the oldest, and not in the system's, which keeps seconds of them. And each ends with
+// roslaunch, ROS's own programs too.
 
 #include <arpa/inet.h>
 #include <dlfcn.h>
@@ -15,6 +17,8 @@
 #include <navvi_config/launcher.hpp>
 
 namespace {
+
+constexpr int kUnsent = 8192;  // bytes that may wait in the system
 
 [[gnu::constructor]] void begin() { navvi_config::end_with_launcher(); }
 
@@ -32,14 +36,16 @@ Function next(const char* name) {
 
 }  // namespace
 
-/// What it accepts later inherits the option.
+/// What it accepts later inherits the options.
 extern "C" int socket(int domain, int type, int protocol) noexcept {
   static const auto make = next<int (*)(int, int, int)>("socket");
   const int made = make(domain, type, protocol);
   const int on = 1;
   const bool internet = domain == AF_INET || domain == AF_INET6;
-  if (made >= 0 && internet && (type & 0xf) == SOCK_STREAM)
+  if (made >= 0 && internet && (type & 0xf) == SOCK_STREAM) {
     setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+    setsockopt(made, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsent, sizeof(kUnsent));
+  }
   return made;
 }
 
