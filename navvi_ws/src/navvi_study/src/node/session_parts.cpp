@@ -17,7 +17,9 @@ namespace navvi_study::node {
 namespace {
 
 constexpr int kPatience = 300;              // ms
-constexpr int kThreads = 10, kThread = 10;  // looks, and ms between two of them
+constexpr int kLook = 10;                   // ms between two looks
+constexpr int kThreads = 100;               // ms that roslaunch's threads take to end, one by one
+constexpr int kBusy = 800;                  // ms that they take longer on a busy machine
 
 /// The host says that nobody listens there. One that is only slow does not say so.
 bool nobody_listens(const std::string& host, std::uint32_t port) {
@@ -52,6 +54,15 @@ std::string address_of(const std::string& node) {
   return address;
 }
 
+/// The signal may come when the first of roslaunch's threads has ended, and the last has not yet.
+bool launcher_has_ended(int patience) {  // ms
+  for (int waited = 0; waited < patience; waited += kLook) {
+    if (navvi_config::parent_has_ended()) return true;
+    ::poll(nullptr, 0, kLook);
+  }
+  return false;
+}
+
 }  // namespace
 
 void SessionParts::note() {
@@ -59,12 +70,10 @@ void SessionParts::note() {
 }
 
 std::string SessionParts::crashed() const {
-  // The signal may come when the first of roslaunch's threads has ended, and the last has not yet.
-  for (int i = 0; i < kThreads; ++i) {
-    if (navvi_config::parent_has_ended()) return "launcher_lost";
-    ::poll(nullptr, 0, kThread);
-  }
-  if (nobody_listens(ros::master::getHost(), ros::master::getPort())) return "master_lost";
+  if (launcher_has_ended(kThreads)) return "launcher_lost";
+  // The master ends with its launcher, and may be through with it first.
+  if (nobody_listens(ros::master::getHost(), ros::master::getPort()))
+    return launcher_has_ended(kBusy) ? "launcher_lost" : "master_lost";
   for (const auto& [node, reason] : kParts) {
     const std::string address = address_of(node);
     if (address.empty()) continue;
