@@ -117,7 +117,7 @@ def test_F6_a_killed_rviz_comes_back_and_ends_by_no_signal(run, tmp_path):
         time.sleep(5.0)
         os.kill(killed, signal.SIGKILL)
         begun.wait_until(lambda: pictures() and pictures() != [killed], 30, "RViz runs again")
-        assert "warning: the program rviz was ended by signal 9." in begun.text()
+        begun.wait_until(lambda: "warning: the program rviz was ended by signal 9." in begun.text(), 10, "the warning is printed")
         begun.wait_until(lambda: "[picture_back] the picture is back" in next(tmp_path.glob("session-*.log")).read_text(), 30, "the person is told")
         time.sleep(15.0)  # it draws the scene
         begun.end()
