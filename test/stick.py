@@ -128,7 +128,8 @@ class Stick:
         self.hold(0.0, lambda: trial[-1:] == [TrialState.RUNNING], 60.0)
         self.push(0.3)
         clock = rospy.Publisher("/clock", Clock, queue_size=1)
-        self.hold(1.0, lambda: clock.get_num_connections() > 3, 10.0)
+        takers = {"/sim_node", "/trial_node"}
+        self.hold(1.0, lambda: takers <= {link.endpoint_id for link in clock.impl.connections}, 20.0)
         self.stopped = None
         jumped = time.monotonic()
         clock.publish(Clock(clock=rospy.Time(1)))
