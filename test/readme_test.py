@@ -3,9 +3,11 @@ import ast
 import re
 import subprocess
 import sys
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 import find_tests
 from rooms_test import PACKAGES as ROOMS, rooms_of
@@ -179,3 +181,10 @@ def test_no_sentence_says_that_a_thing_is_no_other_thing():
     found = [f"{path.relative_to(ROOT)}: {text}" for path in paths for text in sentences_of(path)
              if re.search(r"(?<!here )\b(is|are) no (?!longer\b)[a-zA-Z]", text)]
     assert not found, "say 'is not a ...', and what is allowed"
+
+
+@pytest.mark.parametrize("name", ["session", "seen"])
+def test_the_documents_pictures_show_what_is_drawn_today(name):
+    bench = SourceFileLoader("picture_bench", str(SOURCES / "navvi_rviz/bench/picture_bench")).load_module()
+    assert Image.open(ROOT / f"doc/{name}.png").text.get("look") == bench.look_of_today(), (
+        "the drawing code has changed since; \"./navvi bench picture --doc\" makes them anew")
