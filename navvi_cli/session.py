@@ -83,6 +83,8 @@ def accepted(part, node, parameters):
 
 def check_parameters(words):
     """Lets each node check its own, and hands them to the launch file as YAML."""
+    if words.get("zones"):
+        words.parameters.append(f"nav/mesh/zones:={os.path.abspath(words.pop('zones'))}")
     for part, node in nodes_of(words).items():
         words[f"{part}_parameters"] = accepted(part, node, words.parameters_of(part))
     words["parameters"] = " ".join(words.parameters).replace(":=", "=")  # roslaunch ignores a value with := in it

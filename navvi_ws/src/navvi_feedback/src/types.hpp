@@ -4,6 +4,7 @@
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
 #include <navvi_types/link_state.hpp>
+#include <navvi_types/zone.hpp>
 #include <navvi_types/motion.hpp>
 #include <navvi_types/scenario.hpp>
 #include <navvi_types/thing.hpp>
@@ -19,6 +20,7 @@ using navvi_types::CueStage;
 using navvi_types::DriveState;
 using navvi_types::Guidance;
 using navvi_types::LinkState;
+using navvi_types::ZoneState;
 using navvi_types::NearThing;
 using navvi_types::Odometry;
 using navvi_types::Priority;

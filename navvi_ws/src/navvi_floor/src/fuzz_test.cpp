@@ -6,6 +6,7 @@
 
 #include "navvi_floor/map_survey.hpp"
 #include "navvi_floor/map_file.hpp"
+#include "navvi_floor/zones.hpp"
 #include "voxel_world.hpp"
 
 namespace navvi_floor {
@@ -36,6 +37,13 @@ TEST(FuzzMaps, files_of_map_server_and_their_pictures_are_read_or_refused) {
   const std::string whole_picture = folder.write("a.pgm", picture), whole_map = folder.write("a.yaml", map);
   navvi_test::fuzz({map}, "b.yaml", [&](const std::string& path) { survey(path, whole_picture); });
   navvi_test::fuzz({picture}, "b.pgm", [&](const std::string& path) { survey(whole_map, path); });
+}
+
+TEST(FuzzMaps, zones_are_read_or_refused) {
+  const std::string zones =
+      "- {name: press shop, kind: keep_out, corners: [0, 0, 4, 0, 4, 2.5]}\n"
+      "- {name: packing, kind: slow, speed: 0.4, corners: [-1, -1, 1e1, -1, 4, 2]}\n";
+  navvi_test::fuzz({zones}, "zones.yaml", [](const std::string& path) { (void)Zones(path); });
 }
 
 }  // namespace

@@ -367,5 +367,23 @@ TEST(CommandGate, admits_the_one_driver_and_names_any_other) {
   EXPECT_TRUE(CommandGate(CommandGateConfig{}).admit("/teleop", 1, {})) << "no driver is named";
 }
 
+TEST_F(Gate, drives_no_faster_than_zones_allow_and_slowly_where_they_are_silent) {
+  start();
+  navvi_types::ZoneState zone;
+  zone.forward = 0.3;
+  zone.backward = 0.6;
+  gate_.limit(zone, now_);
+  hold(0.1, Velocity{1.0, 0.5});
+  EXPECT_EQ(wheels_.linear, 0.3);
+  EXPECT_EQ(wheels_.angular, 0.5) << "turning is free";
+  hold(0.1, Velocity{-1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, -0.6);
+  hold(0.5, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, CommandGateConfig::kZoneLost);
+  gate_.limit({}, now_);
+  hold(0.1, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 1.0);
+}
+
 }  // namespace
 }  // namespace navvi_safety

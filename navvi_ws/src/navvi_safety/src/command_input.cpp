@@ -51,14 +51,30 @@ void CommandInput::receive(const ros::MessageEvent<const geometry_msgs::TwistSta
                       gate_.rejected());
 }
 
+namespace {
+
+/// Hands on each message that is valid. \param take  of what it holds
+template <typename Msg, typename Take>
+ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic, const Take& take) {
+  const boost::function<void(const boost::shared_ptr<const Msg>&)> receive =
+      [take](const auto& msg) {
+        if (const auto value = navvi_types::from_msg(*msg)) take(*value);
+      };
+  return node.subscribe<Msg>(topic, 1, receive, {}, ros::TransportHints().tcpNoDelay());
+}
+
+}  // namespace
+
 ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic, CommandGate& gate,
                        const std::function<Instant()>& now) {
-  const boost::function<void(const navvi_msgs::Proximity::ConstPtr&)> see =
-      [&gate, now](const navvi_msgs::Proximity::ConstPtr& msg) {
-        if (const auto proximity = navvi_types::from_msg(*msg)) gate.see(proximity->things, now());
-      };
-  return node.subscribe<navvi_msgs::Proximity>(topic, 1, see, {},
-                                               ros::TransportHints().tcpNoDelay());
+  return subscribe<navvi_msgs::Proximity>(
+      node, topic, [&gate, now](const auto& proximity) { gate.see(proximity.things, now()); });
+}
+
+ros::Subscriber limit_by(ros::NodeHandle& node, CommandGate& gate,
+                         const std::function<Instant()>& now) {
+  return subscribe<navvi_msgs::Zone>(
+      node, "navvi/zone", [&gate, now](const auto& zone) { gate.limit(zone, now()); });
 }
 
 LinkOutlet::LinkOutlet(ros::NodeHandle& node)

@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
     ros::Subscriber near;
     if (config.gate.assistance != "off")
       near = navvi_safety::see_by(node, "navvi/proximity", gate, instant);
+    const ros::Subscriber zones = navvi_safety::limit_by(node, gate, instant);
     std::optional<navvi_types::DriveState> published;
     const auto publish_state = [&] {
       const auto now = gate.drive_state(navvi_types::to_ns(ros::Time::now()));

@@ -8,6 +8,7 @@
 #include <navvi_types/angles.hpp>
 
 #include "navvi_types/limits.hpp"
+#include "navvi_types/spoken.hpp"
 
 namespace navvi_types {
 namespace {
@@ -286,6 +287,14 @@ std::optional<LinkState> from_msg(const navvi_msgs::LinkState& msg) {
                    to_ns(msg.header.stamp)};
 }
 
+std::optional<ZoneState> from_msg(const navvi_msgs::Zone& msg) {
+  const auto kind = from_number<ZoneState::Kind>(msg.kind);
+  if (!kind || !within({msg.forward, msg.backward}, 0.0, kFastest) ||
+      (*kind != ZoneState::Kind::none && !is_place_name(msg.name)))
+    return std::nullopt;
+  return ZoneState{*kind, msg.name, msg.forward, msg.backward, to_ns(msg.header.stamp)};
+}
+
 std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg) {
   if (!valid(msg.start) || !valid(msg.goal)) return std::nullopt;
   std::vector<Place> places;
@@ -438,6 +447,16 @@ navvi_msgs::LinkState to_msg(const LinkState& state) {
   msg.loss = state.loss;
   msg.foresight = state.foresight;
   msg.late = static_cast<std::uint8_t>(state.late);
+  return msg;
+}
+
+navvi_msgs::Zone to_msg(const ZoneState& state) {
+  navvi_msgs::Zone msg;
+  msg.header = header("map", state.stamp);
+  msg.kind = static_cast<std::uint8_t>(state.kind);
+  msg.name = state.name;
+  msg.forward = state.forward;
+  msg.backward = state.backward;
   return msg;
 }
 

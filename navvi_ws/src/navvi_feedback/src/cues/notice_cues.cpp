@@ -9,6 +9,7 @@ Utterances NoticeCues::update(const Tick& tick) {
   for (const Content& notice : notices) {
     if (noticed_.count(notice) > 0) continue;
     told.push_back({notice});
+    told.back().fillings.place_name = tick.now.zone;
     told.back().fillings.person = tick.now.devices.person;
     if (family_of(notice.kind) == Family::trial_end) trial_over_ = tick.time;
   }

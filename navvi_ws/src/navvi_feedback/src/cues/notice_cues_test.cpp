@@ -19,6 +19,15 @@ TEST_F(NoticeCuesTest, says_a_notice_once) {
   EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
+TEST_F(NoticeCuesTest, names_a_zone) {
+  under_way();
+  now_.zone = "press shop";
+  now_.notices = {{CueKind::notice, About::zone_keep_out}};
+  EXPECT_EQ(pass(3.0), Texts{"keep-out zone, press shop"});
+  now_.notices = {{CueKind::notice, About::zone_slow}};
+  EXPECT_EQ(pass(3.0), Texts{"slow zone, press shop"});
+}
+
 TEST_F(NoticeCuesTest, names_the_person_whose_settings_are_used) {
   under_way();
   now_.devices.person = "sub-01_b";

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <navvi_types/names.hpp>
+#include <navvi_types/spoken.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@
 #include "types.hpp"
 
 namespace navvi_feedback::cues {
+
+using navvi_types::is_place_name;
+using navvi_types::speakable;
 
 /// Where a person can go: the parts of the world as in navvi_types::Place, the task's goal, the
 /// last ones, and those that they had remembered.
@@ -128,13 +132,5 @@ class Phrases {
   std::map<std::string, std::string> picture_;
   std::map<std::string, std::string> lessons_;
 };
-
-/// True if `text` may be spoken: UTF-8 of Latin, Greek or Cyrillic letters, digits and " ,.'-",
-/// with at least one of the former, at most 80 bytes in all and 24 bytes a word.
-[[nodiscard]] bool speakable(const std::string& text);
-
-/// True if a place may be called `text`: words of letters and digits as in speakable(), of at most
-/// 20 bytes, with one blank between two, at most 40 bytes in all.
-[[nodiscard]] bool is_place_name(const std::string& text);
 
 }  // namespace navvi_feedback::cues

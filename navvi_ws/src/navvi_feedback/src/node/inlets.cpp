@@ -127,6 +127,8 @@ void Inlets::subscribe_to_robot(const NodeConfig& config) {
   });
   listen<navvi_msgs::LinkState>("navvi/link", 1,
                                 [this](const auto& link) { guide_.take(link, now()); });
+  listen<navvi_msgs::Zone>("navvi/zone", 1,
+                           [this](const auto& zone) { guide_.take(zone, now()); });
   listen<nav_msgs::Odometry>("odom", 1,
                              [this](const auto& odometry) { guide_.take(odometry, now()); });
   listen<nav_msgs::Path>("navvi/path", 1, [this](const auto& path) { path_ = path; });

@@ -64,6 +64,7 @@ struct Observation {
   Links links;
   double stops_in = 0.0;                  ///< m, ahead or back, if the stick is let go now
   LinkState connection;                   ///< as the robot's side measures it
+  std::string zone;                       ///< that is told in notices; empty: none
   bool cut_off = false;                   ///< all that comes by it is silent
   bool simulated = false;                 ///< there is a simulator, whose world is known
   bool menu_open = false;                 ///< the person chooses from it

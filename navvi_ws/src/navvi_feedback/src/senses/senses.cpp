@@ -69,6 +69,10 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   now.task = trial_.task;
   now.reached = trial_.place;
   now.notices = devices.states;
+  now.zone = zone_.name;
+  if (zone_.kind != ZoneState::Kind::none)
+    now.notices.emplace_back(CueKind::notice,
+                             navvi_types::from_word<About>("zone_" + std::string(to_string(zone_.kind))).value());
   if (slow_) now.notices.emplace_back(CueKind::notice, About::connection_slow);
   if (assistance_ != DriveState::Assistance::nothing) now.notices.push_back(CueKind::assisted);
   if (intruder_) now.notices.emplace_back(CueKind::notice, About::intruder);

@@ -21,6 +21,7 @@ class Senses {
   void take(const TrialState& state, double time);
   /// The last one holds, also where no other comes.
   void take(const LinkState& link, double time) { connection_ = {link, time}; }
+  void take(const ZoneState& zone, double /*time*/) { zone_ = zone; }
   void take(const Odometry& odometry, double time) { motion_ = {odometry.velocity, time}; }
   void take(const Scenario& scenario, double /*time*/) { scenario_ = scenario; }
   void take(const Contact& contact, double /*time*/) { contacts_.push_back(contact); }
@@ -63,6 +64,7 @@ class Senses {
   Latest<Guidance> guidance_;
   Latest<Velocity> motion_;
   Latest<LinkState> connection_;
+  ZoneState zone_;
   double turned_ = 0.0;  ///< rad, counter-clockwise, since that guidance
   std::optional<DriveState::State> gate_;
   DriveState::Assistance assistance_ = DriveState::Assistance::nothing;

@@ -53,6 +53,7 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
 
 Navigator::Navigator(const NavigatorConfig& config)
     : config_(completed(config)),
+      zones_(config_.planner.mesh.zones),
       observation_(config_.observation),
       forecast_(config_.replan.forecast),
       trigger_(config_.replan.trigger),
@@ -121,6 +122,12 @@ void Navigator::reset_times() {
   sent_.carved.reset();
   if (sent_.since) sent_.since = 0.0;
   if (map_.sent) map_.sent = 0.0;
+}
+
+std::optional<navvi_types::ZoneState> Navigator::zone(double time) const {
+  const std::optional<Pose2> robot = pose(time);
+  if (zones_.empty() || !robot) return std::nullopt;
+  return zones_.at(to_point(robot->position), robot->yaw, config_.planner.mesh.robot_radius);
 }
 
 /// An arrival or a refusal is still true when the map is old.

@@ -95,6 +95,8 @@ class Navigator {
   /// Where the robot is; nullopt without a fresh pose.
   [[nodiscard]] std::optional<Pose2> pose(double time) const { return observation_.pose(time); }
   [[nodiscard]] bool has_map() const { return map_.floor != nullptr; }
+  /// What zones allow where the robot is; nullopt without zones, or a fresh pose.
+  [[nodiscard]] std::optional<navvi_types::ZoneState> zone(double time) const;
   /// True if the obstacles were given up as too old; cleared by the next ones.
   [[nodiscard]] bool obstacles_lost() const { return observation_.obstacles_lost(); }
   /// m, z of the floor in map; 0 before there is a map.
@@ -152,6 +154,7 @@ class Navigator {
   void report_path(Guidance& out) const;
 
   NavigatorConfig config_;
+  map::Zones zones_;
   Observation observation_;
   double height_ = 0.0;  ///< m, z of base_link
   std::optional<Eigen::Vector2d> by_odometry_;  ///< m, in map

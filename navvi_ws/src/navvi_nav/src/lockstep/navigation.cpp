@@ -79,6 +79,10 @@ std::vector<Eigen::Vector2d> Navigation::path() const {
   return out;
 }
 
+std::optional<navvi_types::ZoneState> Navigation::zone(double time) const {
+  return parts_->navigator.zone(time);
+}
+
 bool Navigation::plan_waits() const { return parts_->answer.has_value(); }
 
 std::optional<navvi_types::Guidance> Navigation::update(double time) {

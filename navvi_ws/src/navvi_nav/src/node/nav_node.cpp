@@ -74,6 +74,8 @@ class NavNode {
         mesh_throttle_(kMeshPeriod) {
     path_ = node.advertise<nav_msgs::Path>("navvi/path", 1, true);
     guidance_ = node.advertise<navvi_msgs::Guidance>("navvi/guidance", 10);
+    if (!config.navigator.planner.mesh.zones.empty())
+      zone_ = node.advertise<navvi_msgs::Zone>("navvi/zone", 1);
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
     subscribers_ = {
         node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
@@ -258,6 +260,12 @@ class NavNode {
 
   void publish_all() {
     const double now = ros::Time::now().toSec();
+    if (std::optional<navvi_types::ZoneState> zone = navigator_.zone(now)) {
+      zone->stamp = navvi_types::to_ns(ros::Time::now());
+      navvi_msgs::Zone msg = navvi_types::to_msg(*zone);
+      msg.header.frame_id = config_.map_frame;
+      zone_.publish(msg);
+    }
     publish_path();
     if (navigator_.undecided(now)) return;
     Guidance guidance = navigator_.guidance(now);
@@ -302,6 +310,7 @@ class NavNode {
   std::optional<tf2_ros::StaticTransformBroadcaster> frames_;
   ros::Publisher path_;
   ros::Publisher guidance_;
+  ros::Publisher zone_;  ///< none without zones
   ros::Publisher goals_;
   std::optional<GoalAction> action_;
   ros::Publisher mesh_;
@@ -322,7 +331,11 @@ class NavNode {
 
 int main(int argc, char** argv) {
   using navvi_nav::node::NodeConfig;
-  if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
+  const auto check = [](const NodeConfig& config) {
+    static_cast<void>(navvi_floor::Zones(config.navigator.planner.mesh.zones));
+    return YAML::Node(YAML::NodeType::Map);
+  };
+  if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv, check)) return *code;
   navvi_config::ask_for_priority(-5);
   ros::init(argc, argv, "nav_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {

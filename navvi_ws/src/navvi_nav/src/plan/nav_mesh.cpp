@@ -38,6 +38,9 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
         "an obstacle that moved less keeps its hole");
   visit(carve_changed, "carve_changed", Range{0.0, 1.0}, "",
         "fraction of the carved area that must have changed before holes follow (R-NAV-5)");
+  visit(zones, "zones", navvi_config::Any{}, "",
+        "a YAML file of {name, kind: keep_out | slow | rack, corners, speed}: where the robot may "
+        "not drive, or only slowly; empty: none");
 }
 
 double NavMesh::margin(double cell) const {
@@ -61,6 +64,7 @@ bake::BakedMap NavMesh::bake(map::MapSurvey survey) const {
   how.max_corners = config_.polygon_corners;
   how.fine_parts = !config_.whole_cell_erosion;
   how.threads = config_.threads;
+  if (survey.error.empty()) zones_.close(survey);
   return bake::bake_map(std::move(survey), how, &baked_);
 }
 

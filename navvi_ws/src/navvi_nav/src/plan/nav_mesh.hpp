@@ -6,6 +6,7 @@
 #include <navvi_floor/floor.hpp>
 #include <navvi_floor/map_survey.hpp>
 #include <navvi_floor/occupancy_grid.hpp>
+#include <navvi_floor/zones.hpp>
 #include <navvi_types/headroom.hpp>
 #include <optional>
 #include <set>
@@ -35,6 +36,7 @@ struct NavMeshConfig {
   int threads = 2;  ///< that share the work on a new map
   double carve_moved = 0.0;
   double carve_changed = 0.0;
+  std::string zones;  ///< their file; empty: none
 
   void describe(navvi_config::Visitor& visit);
 };
@@ -62,6 +64,7 @@ class NavMesh {
                    double clearance = smooth::GuideCostConfig{}.preferred_clearance)
       : config_(config),
         clearance_(clearance),
+        zones_(config.zones),
         carving_({config.robot_radius, config.carve_moved, config.carve_changed}) {}
 
   /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
@@ -114,6 +117,7 @@ class NavMesh {
   [[nodiscard]] map::Space space() const { return {floor_.get(), &carved()}; }
   [[nodiscard]] const NavMeshConfig& config() const { return config_; }
   [[nodiscard]] double clearance() const { return clearance_; }  ///< as constructed
+  [[nodiscard]] const map::Zones& zones() const { return zones_; }
 
  private:
   [[nodiscard]] double margin(double cell) const;
@@ -122,6 +126,7 @@ class NavMesh {
 
   NavMeshConfig config_;
   double clearance_;
+  map::Zones zones_;
   bake::BakedMap baked_;
   std::shared_ptr<const map::Floor> floor_ = std::make_shared<map::Floor>();
   std::map<bake::TileIndex, std::vector<int>> tile_polygons_;  // numbers in the mesh's floor

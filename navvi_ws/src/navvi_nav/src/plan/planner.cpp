@@ -115,7 +115,7 @@ bake::BakedMap Planner::bake(const PlanRequest& request) const {
     if (request.grid) return nav_mesh_.bake(*request.grid);
     if (!request.map) return {};
     const MapMessage& map = *request.map;
-    if (map.voxels && cache_ != nullptr && nav_mesh_.empty())
+    if (map.voxels && cache_ != nullptr && nav_mesh_.empty() && nav_mesh_.zones().empty())
       return kept_bake(nav_mesh_, *map.voxels, request.stands_at, *cache_);
     if (map.voxels) return nav_mesh_.bake(*map.voxels, request.stands_at);
     return nav_mesh_.bake({map.data.data(), map.data.size(), map.binary, map.id, map.resolution},

@@ -7,6 +7,7 @@
 
 #include "small_world.hpp"
 #include "smooth/turns.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_nav::plan {
 namespace {
@@ -33,6 +34,23 @@ void expect_clear(const Path& path, const SmallWorld& map, const std::vector<Cyl
       ASSERT_GE(distance(cylinder.center, point), least - kTolerance);
     }
   }
+}
+
+TEST(Planner, leads_round_a_closed_zone_and_to_nowhere_in_it) {
+  const navvi_test::TempFolder folder;
+  PlannerConfig config;
+  config.mesh.zones = folder.write(
+      "zones.yaml", "- {name: press, kind: keep_out, corners: [4, 1, 6, 1, 6, 5, 4, 5]}\n"
+                    "- {name: lane, kind: slow, speed: 0.4, corners: [0, 0, 10, 0, 10, 1, 0, 1]}\n");
+  SmallWorld world;
+  world.room(10, 8);
+  Planner planner{config};
+  ASSERT_EQ(planner.set_map(world.voxels()).error, "");
+  const Plan plan = planner.plan({2, 3}, {8, 3});
+  ASSERT_EQ(plan.status, PlanStatus::found);
+  for (const Point point : points_along(plan.path, 0.01))
+    ASSERT_GE(distance_to({4, 1, 6, 5}, point), kRadius - kTolerance) << point.x << " " << point.y;
+  EXPECT_EQ(planner.plan({2, 3}, {5, 3}).refusal, Guidance::Refusal::inside_obstacle);
 }
 
 TEST(Planner, says_that_there_is_no_map) {

@@ -177,6 +177,10 @@ void ClosedLoop::navigate() {
   if (const auto robot = node::from_msg(at)) navigation_.set_pose(*robot, at.translation.z, time());
   std::optional<navvi_types::Guidance> guidance = navigation_.update(time());
   require_map();
+  if (const auto zone = navigation_.zone(time())) {
+    gate_.limit(*zone, instant());
+    guided_.take(*zone, time());
+  }
   if (!guidance) return;
   guidance->stamp = navvi_types::to_ns(stamp());
   guided_.take(*guidance, time());

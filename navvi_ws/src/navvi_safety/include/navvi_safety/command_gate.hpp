@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/motion.hpp>
+#include <navvi_types/zone.hpp>
 #include <optional>
 #include <string>
 
@@ -27,6 +28,8 @@ struct CommandGateConfig {
   static constexpr double kNeutralAngular = 0.02;  ///< rad/s, a slower command counts as neutral
   static constexpr double kAhead = 0.3;      ///< s, a stamp farther ahead is rejected
   static constexpr double kLateShare = 0.4;  ///< of a command that comes late
+  static constexpr double kZoneStale = 0.5;  ///< s
+  static constexpr double kZoneLost = 0.2;   ///< m/s, where what zones allow is not known any more
   bool foresight = true;
   std::string assistance = "off";  ///< off, stop or steer
   double max_linear = 1.5;
@@ -77,6 +80,12 @@ class CommandGate {
     assistance_.see(nearby, now.sim);
   }
 
+  /// What zones allow. Once they did, a speed is left that hurts nobody where no more comes.
+  void limit(const navvi_types::ZoneState& zone, const Instant& now) {
+    zone_ = zone;
+    zone_at_ = now;
+  }
+
   /// The velocity for the wheels at `now`. Call it at every control step.
   [[nodiscard]] navvi_types::Velocity update(const Instant& now);
 
@@ -101,6 +110,8 @@ class CommandGate {
   CommandGateConfig config_;
   LinkMeter link_meter_;
   Assistance assistance_;
+  navvi_types::ZoneState zone_;
+  std::optional<Instant> zone_at_;
   navvi_types::Velocity command_;
   std::optional<Instant> last_valid_;
   std::optional<Instant> neutral_since_;

@@ -46,6 +46,10 @@ class CommandInput {
 [[nodiscard]] ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic,
                                      CommandGate& gate, const std::function<Instant()>& now);
 
+/// Shows the gate what zones allow: navvi/zone, which nav_node publishes where there are any.
+[[nodiscard]] ros::Subscriber limit_by(ros::NodeHandle& node, CommandGate& gate,
+                                       const std::function<Instant()>& now);
+
 /// Publishes the connection's state on navvi/link: 2 Hz, and when commands begin or cease to come
 /// late.
 class LinkOutlet {

@@ -59,7 +59,7 @@ class SimNode {
   navvi_safety::LinkOutlet link_{node_};
   live::Pacer pacer_;
   int exit_code_ = 0;
-  ros::Subscriber commands_, near_, clocks_;
+  ros::Subscriber commands_, near_, zones_, clocks_;
   ros::WallTimer timer_;
 };
 
@@ -91,6 +91,7 @@ SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
     near_ = navvi_safety::see_by(
         commands_node, config_.sensing == "truth" ? "navvi/proximity" : "navvi/seen/proximity",
         gate_, [this] { return instant(); });
+  zones_ = navvi_safety::limit_by(commands_node, gate_, [this] { return instant(); });
   clocks_ = commands_node.subscribe("clock", 100, &SimNode::hear_clock, this,
                                     ros::TransportHints().tcpNoDelay());
   timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);

@@ -18,6 +18,7 @@
 #include <navvi_msgs/StateHash.h>
 #include <navvi_msgs/TrialRequest.h>
 #include <navvi_msgs/TrialState.h>
+#include <navvi_msgs/Zone.h>
 
 #include <optional>
 #include <vector>
@@ -29,6 +30,7 @@
 #include "navvi_types/link_state.hpp"
 #include "navvi_types/scenario.hpp"
 #include "navvi_types/trial.hpp"
+#include "navvi_types/zone.hpp"
 
 namespace navvi_types {
 
@@ -56,6 +58,7 @@ namespace navvi_types {
 [[nodiscard]] std::optional<CueEvent> from_msg(const navvi_msgs::Cue& msg);
 [[nodiscard]] std::optional<DriveState> from_msg(const navvi_msgs::DriveState& msg);
 [[nodiscard]] std::optional<LinkState> from_msg(const navvi_msgs::LinkState& msg);
+[[nodiscard]] std::optional<ZoneState> from_msg(const navvi_msgs::Zone& msg);
 [[nodiscard]] std::optional<Scenario> from_msg(const navvi_msgs::Scenario& msg);
 /// nullopt if its hash is not 16 hexadecimal digits in lower case.
 [[nodiscard]] std::optional<StateHash> from_msg(const navvi_msgs::StateHash& msg);
@@ -74,6 +77,7 @@ namespace navvi_types {
 [[nodiscard]] navvi_msgs::Cue to_msg(const CueEvent& event);
 [[nodiscard]] navvi_msgs::DriveState to_msg(const DriveState& state);
 [[nodiscard]] navvi_msgs::LinkState to_msg(const LinkState& state);
+[[nodiscard]] navvi_msgs::Zone to_msg(const ZoneState& state);
 [[nodiscard]] navvi_msgs::Scenario to_msg(const Scenario& scenario);
 [[nodiscard]] navvi_msgs::StateHash to_msg(const StateHash& state);
 [[nodiscard]] navvi_msgs::TrialState to_msg(const TrialState& state);

@@ -42,4 +42,16 @@ struct SpokenLength {
   return begun + kStarts + static_cast<double>(characters) / kCharactersPerSecond;
 }
 
+inline constexpr std::size_t kMaxWord = 24;
+inline constexpr std::size_t kMaxName = 40;      ///< of a place
+inline constexpr std::size_t kMaxNameWord = 20;  ///< a phrase may put signs beside it
+
+/// True if `text` may be spoken: UTF-8 of Latin, Greek or Cyrillic letters, digits and " ,.'-",
+/// with at least one of the former, at most 80 bytes in all and 24 bytes a word.
+[[nodiscard]] bool speakable(const std::string& text);
+
+/// True if a place may be called `text`: words of letters and digits as in speakable(), of at most
+/// 20 bytes, with one blank between two, at most 40 bytes in all.
+[[nodiscard]] bool is_place_name(const std::string& text);
+
 }  // namespace navvi_types

@@ -9,6 +9,7 @@
 #include <navvi_types/drive_state.hpp>
 #include <navvi_types/guidance.hpp>
 #include <navvi_types/link_state.hpp>
+#include <navvi_types/zone.hpp>
 #include <navvi_types/motion.hpp>
 #include <navvi_types/scenario.hpp>
 #include <navvi_types/thing.hpp>
@@ -61,7 +62,7 @@ class Guide {
   using Message = std::variant<navvi_types::Proximity, navvi_types::Guidance,
                                navvi_types::DriveState, navvi_types::TrialState,
                                navvi_types::Odometry, navvi_types::Scenario, navvi_types::Contact,
-                               navvi_types::LinkState>;
+                               navvi_types::LinkState, navvi_types::ZoneState>;
   void take(const Message& message, double time);
   /// From any source. \param goal  m, in map
   void take_goal(const Eigen::Vector2d& goal);

@@ -8,6 +8,7 @@
 #include <navvi_floor/octomap_reader.hpp>
 #include <navvi_types/guidance.hpp>
 #include <navvi_types/motion.hpp>
+#include <navvi_types/zone.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,9 @@ class Navigation {
   [[nodiscard]] const std::string& map_error() const;
   /// From where the robot was when it was planned to the goal; empty if none is followed.
   [[nodiscard]] std::vector<Eigen::Vector2d> path() const;
+
+  /// What zones allow the robot; nullopt without any.
+  [[nodiscard]] std::optional<navvi_types::ZoneState> zone(double time) const;
 
   /// True if a plan waits for the next beat, which is then due at once.
   [[nodiscard]] bool plan_waits() const;

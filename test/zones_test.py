@@ -1,0 +1,27 @@
+"""Zones of a session: who drives is led round them or held before them, and hears their names."""
+import numpy
+
+from sessions import WORLD, navvi, rows_of, summary
+
+
+def test_a_session_with_zones_keeps_out_of_them_and_names_them(session, tmp_path):
+    zones = tmp_path / "zones.yaml"
+    zones.write_text("- {name: dock, kind: slow, speed: 0.3, corners: [-1, -3, 1, -3, 1, 3, -1, 3]}\n")
+    begun = session(f"world:={WORLD}", "seed:=3", f"zones:={zones}", "limit:=150")
+    text = begun.wait_until_ended(400)
+    assert summary(begun.folder)["result"] == "reached", text[-3000:]
+    trial = next(begun.folder.glob("trial-*"))
+    rows = rows_of(trial / "journal.csv")
+    assert any("zone_slow" in row["fields"] and row["type"] == "CUE" for row in rows), [row["fields"] for row in rows if row["type"] == "CUE"]
+    assert "slow zone, dock" in next(begun.folder.glob("session-*.log")).read_text()
+    track = numpy.load(trial / "track.npy")
+    speeds = abs(track["speed"][abs(track["x"]) < 1.0])
+    assert len(speeds) > 50 and speeds.max() < 0.33, speeds
+
+
+def test_a_file_of_zones_that_cannot_be_used_is_refused_before_anything_starts(tmp_path):
+    zones = tmp_path / "zones.yaml"
+    zones.write_text("- {name: dock, kind: slow, corners: [0, 0, 1, 0, 1, 1]}\n")
+    for file, says in ((zones, "line 1"), (tmp_path / "none.yaml", "none.yaml")):
+        refused = navvi("run", f"zones:={file}", "operator:=simulated", "rviz:=false")
+        assert refused.returncode == 2 and says in refused.stderr, refused
