@@ -39,7 +39,7 @@ inline const std::set<std::string>& removed_keys() {
         "neutral_linear obstacle_timeout octomap/free off_path others_rumble pallet_robot_speed "
         "pause period plan_timeout points pose_timeout replan/elbow_room replan/foresight "
         "replan/hold_choice replan/hold_detour replan/late_time replan/min_interval "
-        "replan/notice_time replan/pause replan/slow_time replan/stop_room replan/tolerance "
+        "replan/notice_time replan/pause replan/slow_speed replan/slow_time replan/stop_room replan/tolerance "
         "replan/wait_distance robot/acceleration robot/angular_acceleration robot/angular_brake "
         "robot/brake robot/clearance robot/deceleration robot/height "
         "robot/imperfections/command_delay robot/imperfections/odometry_right "

@@ -29,7 +29,6 @@ TEST(ConfigFiles, paper_holds_the_printed_constants) {
   EXPECT_DOUBLE_EQ(paper.planner.alpha, 1.0);                   // R-NAV-6
   EXPECT_DOUBLE_EQ(paper.path.guidance.waypoint_reached, 1.0);  // R-NAV-8
   EXPECT_DOUBLE_EQ(paper.replan.trigger.period, 2.0);           // R-NAV-9
-  EXPECT_DOUBLE_EQ(paper.replan.trigger.slow_speed, 0.1);       // R-NAV-9
   EXPECT_DOUBLE_EQ(paper.path.guidance.goal_reached, 1.0);      // R-NAV-11
   EXPECT_FALSE(paper.replan.trigger.only_if_it_matters);        // R-NAV-9, every trigger
   EXPECT_EQ(paper.observation.most_cylinders, 1);               // R-NAV-4

@@ -37,7 +37,6 @@ void ReplanTriggerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(period, "period", Range{0.1, 60.0}, "s",
         "tau: a plan is made again at least so often (R-NAV-9)");
-  visit(slow_speed, "slow_speed", Range{0.0, 1.0}, "m/s", "slower than this counts as too slow");
   visit(near_range, "near_range", Range{0.0, 20.0}, "m",
         "R_threshold: a new obstacle within this distance of the robot is a reason");
   visit(only_if_it_matters, "only_if_it_matters", navvi_config::Any{}, "",
@@ -67,7 +66,7 @@ std::optional<Guidance::Replan> ReplanTrigger::update(const ReplanInput& input) 
 
 /// True if the robot has been too slow for too long, at most once a period.
 bool ReplanTrigger::is_slow(const ReplanInput& input) {
-  if (input.speed >= config_.slow_speed) {
+  if (input.speed >= config_.kSlowSpeed) {
     slow_since_.reset();
   } else if (!slow_since_) {
     slow_since_ = input.time;

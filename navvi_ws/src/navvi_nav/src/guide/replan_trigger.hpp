@@ -39,7 +39,7 @@ class SecondAsk {
 struct ReplanTriggerConfig {
   double robot_radius = 0.35;  ///< m, set from the mesh's
   double period = 2.0;
-  double slow_speed = 0.1;
+  static constexpr double kSlowSpeed = 0.1;  ///< m/s, slower counts as too slow (R-NAV-9)
   static constexpr double kSlowTime = 1.0;  ///< s, how long the robot must be too slow
   double near_range = 3.0;
   static constexpr double kMinInterval = 0.5;  ///< s, least time between plans because of obstacles
