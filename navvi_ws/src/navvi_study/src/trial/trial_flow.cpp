@@ -22,10 +22,10 @@ void GoalTries::sent_elsewhere(double time) {
   stood_ = false;
 }
 
-GoalTries::Next GoalTries::next(bool taken, double time) {
+GoalTries::Next GoalTries::next(bool taken, double time, double round_trip) {
   if (stood_ && !taken) tries_ = 0;
   stood_ = taken;
-  if (taken || (tries_ > 0 && time - sent_ < kGoalAgain)) return Next::wait;
+  if (taken || (tries_ > 0 && time - sent_ < kGoalAgain + round_trip)) return Next::wait;
   if (tries_ >= kGoalTries) return Next::give_up;
   ++tries_;
   sent_ = time;

@@ -36,8 +36,8 @@ class GoalTries {
   void sent_elsewhere(double time);
   /// What to do now; `send` counts as a try. A goal that stood and is forgotten, as by a guidance
   /// that was started anew, is sent again with all tries.
-  /// \param taken  the guidance shows the goal
-  [[nodiscard]] Next next(bool taken, double time);
+  /// \param taken  the guidance shows the goal \param round_trip  s, of the connection
+  [[nodiscard]] Next next(bool taken, double time, double round_trip = 0.0);
 
  private:
   int tries_ = 0;

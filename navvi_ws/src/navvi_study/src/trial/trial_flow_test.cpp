@@ -84,6 +84,14 @@ TEST(GoalTries, sends_a_goal_three_times_two_seconds_apart_then_gives_up) {
   EXPECT_EQ(tries.next(false, 6.0), Next::give_up);
 }
 
+TEST(GoalTries, waits_for_the_answer_of_a_slow_connection) {
+  GoalTries tries;
+  EXPECT_EQ(tries.next(false, 0.0, 5.0), Next::send);
+  EXPECT_EQ(tries.next(false, 6.9, 5.0), Next::wait);
+  EXPECT_EQ(tries.next(true, 6.9, 5.0), Next::wait);
+  EXPECT_EQ(tries.next(true, 60.0, 5.0), Next::wait);
+}
+
 TEST(GoalTries, a_goal_that_is_forgotten_is_sent_again_with_all_tries) {
   GoalTries tries;
   EXPECT_EQ(tries.next(false, 0.0), Next::send);

@@ -321,7 +321,7 @@ void TrialKeeper::keep_track(std::int64_t until) {
 }
 
 void TrialKeeper::ask_for_goal() {
-  switch (goals_.tries.next(monitor_.goal_taken(), now_.wall())) {
+  switch (goals_.tries.next(monitor_.goal_taken(), now_.wall(), monitor_.round_trip())) {
     case GoalTries::Next::wait:
       return;
     case GoalTries::Next::send:

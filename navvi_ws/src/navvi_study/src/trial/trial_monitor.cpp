@@ -440,6 +440,7 @@ std::vector<Event> TrialMonitor::observe(const DriveState& drive) {
 }
 
 std::vector<Event> TrialMonitor::observe(const LinkState& link) {
+  round_trip_ = link.round_trip;
   const bool begins = link.late != LinkState::Late::no &&
                       (links_.empty() || links_.back().late == LinkState::Late::no);
   if (!counts(link.stamp)) return {};

@@ -160,6 +160,8 @@ class TrialMonitor {
   /// The simulator began anew in mid trial.
   [[nodiscard]] bool world_restarted() const { return world_restarted_; }
   /// The wheels were stopped as ROS time had jumped, if for a moment only.
+  /// s, of the connection, as last told, also before a trial
+  [[nodiscard]] double round_trip() const { return round_trip_; }
   [[nodiscard]] bool clock_jumped() const { return clock_jumped_; }
   /// ns, the latest stamp that was seen at all
   [[nodiscard]] std::int64_t latest() const { return latest_; }
@@ -225,6 +227,7 @@ class TrialMonitor {
   std::map<navvi_types::Modality, std::string>
       playing_;  ///< kind of the last cue that is no speech
   std::vector<LinkState> links_;
+  double round_trip_ = 0.0;  ///< s
   DriveState::Reason stopped_for_ =
       DriveState::Reason::none;  ///< by the last stage before the wheels
   DriveState::Assistance assists_ = DriveState::Assistance::nothing;  ///< likewise
