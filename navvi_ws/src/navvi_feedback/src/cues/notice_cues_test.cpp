@@ -23,7 +23,7 @@ TEST_F(NoticeCuesTest, names_a_zone) {
   under_way();
   now_.zone = "press shop";
   now_.notices = {{CueKind::notice, About::zone_keep_out}};
-  EXPECT_EQ(pass(3.0), Texts{"keep-out zone, press shop"});
+  EXPECT_EQ(pass(3.0), Texts{"closed zone, press shop"});
   now_.notices = {{CueKind::notice, About::zone_slow}};
   EXPECT_EQ(pass(3.0), Texts{"slow zone, press shop"});
 }
