@@ -76,7 +76,8 @@ class NearMaster:
             pass
 
     def finish(self, seconds):
-        """Waits until all that was registered and taken back is known there."""
+        """Waits until all that was registered and taken back is known there. Returns whether it is."""
         deadline = time.monotonic() + seconds
-        while any(one.unfinished_tasks for one in self.waiting) and time.monotonic() < deadline:
+        while (goes_on := any(one.unfinished_tasks for one in self.waiting)) and time.monotonic() < deadline:
             time.sleep(0.1)
+        return not goes_on

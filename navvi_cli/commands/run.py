@@ -87,9 +87,12 @@ def far_session(given):
     begin = time.time_ns()
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
     announce(words, log, network, f"the robot at {where}")
-    status = drive(launch_file, words, log, network, begin)
-    network.near.finish(60.0)
-    return status
+    try:
+        return drive(launch_file, words, log, network, begin)
+    finally:
+        if not network.near.finish(3.0):
+            say("the robot's machine is told that this session has ended; Ctrl-C does not wait for that.")
+            network.near.finish(60.0)
 
 
 HERE = {"sensing": "truth", "world": "warehouse"}
