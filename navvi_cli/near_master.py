@@ -3,6 +3,7 @@
 Parameters are answered here and changed there, too. What a node registers is passed on while the node goes on; the publishers of a topic come to
 it as the master sends all later changes. Everything else is asked there.
 """
+import http.client
 import queue
 import threading
 import time
@@ -63,9 +64,11 @@ class NearMaster:
         while True:
             try:
                 return self.ask(method, *words)
-            except OSError:
+            except (OSError, http.client.HTTPException):  # the connection
                 del self.of_thread.master
                 time.sleep(AGAIN)
+            except xmlrpc.client.Error as refused:
+                return 0, str(refused), []
 
     @staticmethod
     def tell(subscriber, publishers):
