@@ -1,0 +1,54 @@
+"""The robot's master, near to the person's nodes: a real one, and what a node tells it and hears of it."""
+import sys
+import threading
+from xmlrpc.client import ServerProxy
+from xmlrpc.server import SimpleXMLRPCServer
+
+import pytest
+
+from sessions import ROOT, eventually
+
+sys.path.insert(0, str(ROOT))
+from navvi_cli.near_master import NearMaster  # noqa: E402
+
+
+@pytest.fixture
+def masters(master):
+    """That of the robot, the near one, and what is asked of it."""
+    far = ServerProxy(master["ROS_MASTER_URI"])
+    far.setParam("/robot", "/a/b", 1)
+    near = NearMaster(master["ROS_MASTER_URI"])
+    return far, near, ServerProxy(near.uri)
+
+
+def test_parameters_are_known_here_and_changed_there_in_order(masters):
+    far, near, own = masters
+    assert own.getParam("/node", "/a/b")[2] == 1 and own.hasParam("/node", "/none")[2] is False
+    for value in range(50):
+        own.setParam("/node", "/c", {"d": value})
+    own.setParam("/node", "/e", 3)
+    own.deleteParam("/node", "/e")
+    assert own.getParam("/node", "/c/d")[2] == 49
+    assert near.finish(20.0)
+    assert far.getParam("/node", "/c/d")[2] == 49 and far.hasParam("/node", "/e")[2] is False
+
+
+def test_a_subscriber_hears_of_its_publishers_and_is_taken_back(masters):
+    far, near, own = masters
+    heard = []
+    node = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+    node.register_function(lambda _, topic, publishers: heard.append((topic, publishers)) or (1, "", 0), "publisherUpdate")
+    threading.Thread(target=node.serve_forever, daemon=True).start()
+    uri = f"http://127.0.0.1:{node.server_address[1]}/"
+    far.registerPublisher("/talker", "/chat", "std_msgs/String", "http://127.0.0.1:1/")
+    assert own.registerSubscriber("/listener", "/chat", "std_msgs/String", uri)[0] == 1
+    assert eventually(lambda: ("/chat", ["http://127.0.0.1:1/"]) in heard, 10)
+    far.registerPublisher("/other", "/chat", "std_msgs/String", "http://127.0.0.1:2/")
+    assert eventually(lambda: heard[-1][1] == ["http://127.0.0.1:1/", "http://127.0.0.1:2/"], 10)
+    assert ["/chat", ["/listener"]] in far.getSystemState("/test")[2][1]
+    own.unregisterSubscriber("/listener", "/chat", uri)
+    assert near.finish(20.0) and far.getSystemState("/test")[2][1] == []
+    assert own.lookupNode("/test", "/talker")[2] == "http://127.0.0.1:1/"
+    assert own.registerSubscriber("/listener", "/chat", "std_msgs/String", "no address")[0] == 1, "refused there, which ends nothing here"
+    assert near.finish(20.0)
+    node.shutdown()
