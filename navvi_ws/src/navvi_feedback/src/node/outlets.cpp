@@ -36,6 +36,7 @@ Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands
 }
 
 void Outlets::command(const Velocity& velocity, double lag) {
+  if (!ros::Time::isValid()) return;  // without a time it would be the latest of all
   geometry_msgs::TwistStamped command;
   command.header.stamp = ros::Time(std::max(0.0, ros::Time::now().toSec() - lag));
   command.twist = to_msg(velocity);
