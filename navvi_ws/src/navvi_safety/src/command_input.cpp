@@ -73,6 +73,8 @@ ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic, CommandG
 
 ros::Subscriber limit_by(ros::NodeHandle& node, CommandGate& gate,
                          const std::function<Instant()>& now) {
+  std::string zones;
+  if (node.getParam("nav_node/mesh/zones", zones) && !zones.empty()) gate.limit({}, {});
   return subscribe<navvi_msgs::Zone>(
       node, "navvi/zone", [&gate, now](const auto& zone) { gate.limit(zone, now()); });
 }

@@ -80,7 +80,7 @@ class CommandGate {
     assistance_.see(nearby, now.sim);
   }
 
-  /// What zones allow. Once they did, a speed is left that hurts nobody where no more comes.
+  /// What zones allow. From then on, where no newer one comes for kZoneStale, kZoneLost.
   void limit(const navvi_types::ZoneState& zone, const Instant& now) {
     zone_ = zone;
     zone_at_ = now;

@@ -46,7 +46,8 @@ class CommandInput {
 [[nodiscard]] ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic,
                                      CommandGate& gate, const std::function<Instant()>& now);
 
-/// Shows the gate what zones allow: navvi/zone, which nav_node publishes where there are any.
+/// Shows the gate what zones allow: navvi/zone, which nav_node publishes where there are any. Where
+/// nav_node is to have some, the robot is slow until the first message.
 [[nodiscard]] ros::Subscriber limit_by(ros::NodeHandle& node, CommandGate& gate,
                                        const std::function<Instant()>& now);
 
