@@ -228,13 +228,6 @@ def test_the_progress_of_apt_is_read(text, percent, tmp_path):
     assert bash(f'root=/ workspace=/\ninstalled_percent "{tmp_path}/log"').communicate()[0].strip() == percent
 
 
-def test_what_failed_once_is_named_with_its_cases(tmp_path):
-    (tmp_path / "log").write_text("2/3 Test #1: a ......***Failed    0.03 sec\n[  FAILED  ] Foo.bar (12 ms)\nE       assert 1 == 2\n\n    Start 1: a\n"
-                                  "    Test #1: a ......   Passed    0.01 sec\nE       of another\n3/3 Test #3: c ......***Timeout   9.00 sec\n")
-    told = bash(f'root=/ workspace=/\ntried_twice "{tmp_path}/log"').communicate()[0]
-    assert told == "tried twice: a\n  [  FAILED  ] Foo.bar (12 ms)\n  E       assert 1 == 2\ntried twice: c\n", told
-
-
 def test_a_command_that_fails_after_a_while_fails(tmp_path):
     process = bash(f'root=/ workspace=/\nslow() {{ sleep 1; return 7; }}; with_progress x "{tmp_path}/log" built_percent slow || echo "code $?"')
     assert process.communicate()[0] == "code 7\n"

@@ -1,9 +1,14 @@
 """The last line of a test run must be able to say that something failed."""
+import os
 import pathlib
+import re
 import subprocess
 import sys
 
 import pytest
+
+import count_results
+import run_tests
 
 SCRIPT = pathlib.Path(__file__).with_name("count_results.py")
 PASSED = '<testsuite><testcase name="navvi_sim/live/world" classname="navvi_sim/live/world" status="run"/></testsuite>'
@@ -61,3 +66,39 @@ def test_all_passed_ends_well(run):
 def test_the_slowest_tests_come_first(run):
     code, lines = run(PASSED, "--slowest", world='<testsuite><testcase name="a" time="0.5"/><testcase name="b" time="7"/></testsuite>')
     assert code == 0 and [line.split()[-1] for line in lines] == ["b", "a"]
+
+
+@pytest.fixture
+def run_ctest(tmp_path, monkeypatch, capsys):
+    """run_tests.py on real tests, which are lines of sh; what it prints, and {program: (outcome, reason)}."""
+    def run(busy, *words, **programs):
+        (tmp_path / "CTestTestfile.cmake").write_text("".join(f'add_test({name} "sh" "-c" "{line}")\n' for name, line in programs.items()))
+        monkeypatch.setattr(run_tests, "BUSY", busy)
+        monkeypatch.setattr(sys, "argv", ["run_tests.py", str(tmp_path / "results.xml"), *words])
+        monkeypatch.chdir(tmp_path)
+        run_tests.main()
+        return capsys.readouterr().out, {name: (outcome, why) for name, outcome, why, _ in count_results.cases(tmp_path / "results.xml")}
+    return run
+
+
+def test_what_fails_in_a_crowd_is_run_again_alone_and_named_with_the_reason(run_ctest):
+    told, found = run_ctest(2.0, "-j2", steady="true", crowd="test -e seen || { touch seen; echo 'E   assert 1'; exit 1; }", wrong="exit 1")
+    assert "run again, alone: crowd\n  E   assert 1\n" in told and told.count("Start") == 5, told
+    assert {name: outcome for name, (outcome, _) in found.items()} == {"steady": "passed", "crowd": "passed", "wrong": "failed"}
+
+
+def test_what_fails_alone_is_not_run_again(run_ctest):
+    told, found = run_ctest(2.0, wrong="exit 1")
+    assert found["wrong"][0] == "failed" and told.count("Start") == 1, told
+
+
+def test_what_fails_where_others_hold_the_processors_is_left_out_and_says_so(run_ctest):
+    loops = [subprocess.Popen(["sh", "-c", "while :; do :; done"]) for _ in range(2 * os.cpu_count())]
+    try:
+        _, found = run_ctest(run_tests.BUSY, steady="true", late="sleep 1; exit 1")
+    finally:
+        for loop in loops:
+            loop.kill()
+            loop.wait()
+    assert found["steady"][0] == "passed" and found["late"][0] == "skipped", found
+    assert re.match(r"other programs held (\d\d|100)% of this machine's processors", found["late"][1])

@@ -2,6 +2,7 @@
 import contextlib
 import ctypes
 import os
+import pathlib
 import signal
 import subprocess
 import time
@@ -108,14 +109,23 @@ class Keys(Programs):
 
 @contextlib.contextmanager
 def frozen_window(process):
-    """Its first thread, which draws, stands still meanwhile, and only that."""
+    """Its first thread, which draws, stands still meanwhile, and only that: between two events, where it holds no lock."""
     trace = ctypes.CDLL(None, use_errno=True).ptrace
     trace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
-    seize, interrupt, detach, all_threads = 0x4206, 0x4207, 17, 0x40000000
+    go_on, seize, interrupt, detach, all_threads = 7, 0x4206, 0x4207, 17, 0x40000000
+    poll, ppoll = 7, 271
+
+    def waits():
+        trace(interrupt, process.pid, None, None)
+        os.waitpid(process.pid, all_threads)
+        call = pathlib.Path(f"/proc/{process.pid}/syscall").read_text().split()
+        found = int(call[0]) in (poll, ppoll) and int(call[2], 16) > 1  # of several descriptors
+        if not found:
+            trace(go_on, process.pid, None, None)
+        return found
     assert trace(seize, process.pid, None, None) == 0, os.strerror(ctypes.get_errno())
-    trace(interrupt, process.pid, None, None)
-    os.waitpid(process.pid, all_threads)
     try:
+        assert eventually(waits, 20), "the window draws without a pause"
         yield
     finally:
         trace(detach, process.pid, None, None)

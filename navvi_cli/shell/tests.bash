@@ -35,24 +35,15 @@ tests() {  # TIER [FILTER]
       fail "no test of the tier $tier has \"$filter\" in its name; another tier may." 2
     export NAVVI_TEST_CASE=$filter GTEST_FILTER="*$filter*" PYTEST_ADDOPTS="-k $filter"
   fi
-  # Sessions in real time, which quick has one of, are tried again where a machine was too busy; which ones is reported.
   # Twice as many as there are processors: what computes counts as two (PROCESSORS).
-  with_progress "testing" "$log" tests_percent ctest -j"$((2 * $(nproc)))" "${selected[@]}" --repeat until-pass:2 --output-on-failure \
-    --output-junit "$results.xml" || true
-  tried_twice "$log"
+  with_progress "testing" "$log" tests_percent /usr/bin/python3 "$root/test/run_tests.py" "$results.xml" -j"$((2 * $(nproc)))" "${selected[@]}" || true
+  sed -n '/^run again, alone: /,/^Test project /{/^Test project /!p}; /^left out: /p' "$log"
   if [[ $tier == release && $filter == . ]]; then
     sanitized_tests "" || status=$?
   fi
   echo "The output of the tests is in $log."
   /usr/bin/python3 "$root/test/count_results.py" "$results.xml" "$results" || status=$?
   return "$status"
-}
-
-# Names the programs that failed once, and what failed in them.
-tried_twice() {  # LOG
-  awk '$2 == "Test" || $3 == "Test" || $1 == "Start" { name = "" }
-    /Test +#[0-9]+: .*\*\*\*/ { sub(/.*Test +#[0-9]+: /, ""); name = $1; if (!told[name]++) print "tried twice: " name }
-    name != "" && /^(\[  FAILED  \] .*ms\)|FAILED |E  )/ && shown[name]++ < 6 { print "  " substr($0, 1, 200) }' "$1"
 }
 
 # "12/40 Test #7: NAME ...": a part of a package, such as navvi_sim/live/world, takes a twentieth of the time of others.
