@@ -68,8 +68,12 @@ class Session:
 
     def drive(self, *words, **variables):
         """The simulated person's session; what it prints."""
-        run = subprocess.run([*self.wire.person.enter, "./navvi", "run", f"robot:={self.at}", "operator:=simulated", "rviz:=false",
-                              "limit:=120", f"out:={self.folder}", *words], env=dict(self.env, **variables), cwd=ROOT, capture_output=True, text=True, timeout=400)
+        try:
+            run = subprocess.run([*self.wire.person.enter, "./navvi", "run", f"robot:={self.at}", "operator:=simulated", "rviz:=false", "limit:=120",
+                                  f"out:={self.folder}", *words], env=dict(self.env, **variables), cwd=ROOT, capture_output=True, text=True, timeout=400)
+        except subprocess.TimeoutExpired as late:
+            logs = "".join(log.read_text()[-3000:] for log in self.folder.glob("session-*.log"))
+            raise AssertionError(f"it did not end within 400 s: {(late.stdout or b'').decode()[-3000:]}\n{logs}") from None
         return run.stdout + run.stderr
 
     def close(self):
