@@ -1,7 +1,8 @@
 """The ROS master of a robot on another machine, brought near to the person's nodes, which ask their master hundreds of questions one after the other.
 
 Parameters are answered here and changed there, too. What a node registers is passed on while the node goes on; the publishers of a topic come to
-it as the master sends all later changes. Everything else is asked there.
+it as the master sends all later changes. Everything else is asked there. A node asks a publisher for its connection once, and never again if the
+question is lost: what has no connection is registered anew, by which those that lack one ask again.
 """
 import http.client
 import queue
@@ -15,7 +16,9 @@ from rosmaster.master_api import ROSMasterHandler
 CHANGES = ("setParam", "deleteParam")
 HERE = (*CHANGES, "getPid", "getParam", "hasParam", "getParamNames", "searchParam", "subscribeParam", "unsubscribeParam")
 AT_ONCE = 64  # what is passed on at the same time
-AGAIN = 1.0   # s
+AGAIN = 1.0  # s
+CONNECTED = 10.0  # s, from one look at the connections to the next
+ENDS = {"registerSubscriber": "i", "registerPublisher": "o"}  # of a connection, as getBusInfo has them
 
 
 class NearMaster:
@@ -24,9 +27,11 @@ class NearMaster:
         self.far, self.of_thread = uri, threading.local()
         self.own = ROSMasterHandler(num_workers=1)
         self.own.setParam("/navvi", "/", self.ask("getParam", "/navvi", "/")[2])
+        self.registered, self.lock = {}, threading.Lock()  # the words of the last call, by method, node and topic
         self.waiting = [queue.Queue() for _ in range(AT_ONCE)]
         for one in self.waiting:
             threading.Thread(target=self.pass_on, args=(one,), daemon=True).start()
+        threading.Thread(target=self.keep_connected, daemon=True).start()
         server = rosgraph.xmlrpc.ThreadingXMLRPCServer(("127.0.0.1", 0), log_requests=0)
         server.register_multicall_functions()
         server.register_instance(self)
@@ -44,9 +49,34 @@ class NearMaster:
                 self.waiting[0].put((method, words))
             return getattr(self.own, method)(*words)
         if method.startswith(("register", "unregister")):
-            self.waiting[hash(words[:2]) % AT_ONCE].put((method, words))  # in order for each node and topic
+            with self.lock:
+                if method in ENDS:
+                    self.registered[method, *words[:2]] = words
+                else:
+                    self.registered.pop((method.removeprefix("un"), *words[:2]), None)
+                self.put(method, words)
             return 1, "passed on", []
         return self.ask(method, *words)
+
+    def put(self, method, words):
+        self.waiting[hash(words[:2]) % AT_ONCE].put((method, words))  # in order for each node and topic
+
+    def keep_connected(self):
+        while True:
+            time.sleep(CONNECTED)
+            nodes = {words[3]: self.connections(words[3]) for words in list(self.registered.values())}
+            with self.lock:
+                for (method, _, topic), words in self.registered.items():
+                    if (connected := nodes.get(words[3])) is not None and (ENDS[method], topic) not in connected:
+                        self.put(method, words)
+
+    @staticmethod
+    def connections(address):
+        """(end, topic) of each that the node has; None if it has ended."""
+        try:
+            return {(one[2], one[4]) for one in xmlrpc.client.ServerProxy(address).getBusInfo("/master")[2]}
+        except (OSError, xmlrpc.client.Error):
+            return None
 
     def pass_on(self, waiting):
         while True:

@@ -1,6 +1,7 @@
 """The robot's master, near to the person's nodes: a real one, and what a node tells it and hears of it."""
 import sys
 import threading
+import time
 from xmlrpc.client import ServerProxy
 from xmlrpc.server import SimpleXMLRPCServer
 
@@ -9,6 +10,7 @@ import pytest
 from sessions import ROOT, eventually
 
 sys.path.insert(0, str(ROOT))
+from navvi_cli import near_master  # noqa: E402
 from navvi_cli.near_master import NearMaster  # noqa: E402
 
 
@@ -33,13 +35,21 @@ def test_parameters_are_known_here_and_changed_there_in_order(masters):
     assert far.getParam("/node", "/c/d")[2] == 49 and far.hasParam("/node", "/e")[2] is False
 
 
-def test_a_subscriber_hears_of_its_publishers_and_is_taken_back(masters):
+@pytest.fixture
+def node():
+    """A node's own server: its address, what it heard of publishers, and the connections that it says it has."""
+    heard, connections = [], []
+    server = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
+    server.register_function(lambda _, topic, publishers: heard.append((topic, publishers)) or (1, "", 0), "publisherUpdate")
+    server.register_function(lambda _: (1, "", connections), "getBusInfo")
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_address[1]}/", heard, connections
+    server.shutdown()
+
+
+def test_a_subscriber_hears_of_its_publishers_and_is_taken_back(masters, node):
     far, near, own = masters
-    heard = []
-    node = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False)
-    node.register_function(lambda _, topic, publishers: heard.append((topic, publishers)) or (1, "", 0), "publisherUpdate")
-    threading.Thread(target=node.serve_forever, daemon=True).start()
-    uri = f"http://127.0.0.1:{node.server_address[1]}/"
+    uri, heard, _ = node
     far.registerPublisher("/talker", "/chat", "std_msgs/String", "http://127.0.0.1:1/")
     assert own.registerSubscriber("/listener", "/chat", "std_msgs/String", uri)[0] == 1
     assert eventually(lambda: ("/chat", ["http://127.0.0.1:1/"]) in heard, 10)
@@ -51,4 +61,22 @@ def test_a_subscriber_hears_of_its_publishers_and_is_taken_back(masters):
     assert own.lookupNode("/test", "/talker")[2] == "http://127.0.0.1:1/"
     assert own.registerSubscriber("/listener", "/chat", "std_msgs/String", "no address")[0] == 1, "refused there, which ends nothing here"
     assert near.finish(20.0)
-    node.shutdown()
+
+
+def test_a_subscriber_without_a_connection_hears_of_its_publisher_again_until_it_has_one(masters, node, monkeypatch):
+    monkeypatch.setattr(near_master, "CONNECTED", 0.5)
+    monkeypatch.setattr(near_master, "AGAIN", 0.1)
+    far, _, own = masters
+    uri, heard, connections = node
+    own.registerSubscriber("/listener", "/lost", "std_msgs/String", uri)
+    far.registerPublisher("/talker", "/lost", "std_msgs/String", "http://127.0.0.1:1/")
+    assert eventually(lambda: len(heard) > 3, 30)
+    connections.append([1, "http://127.0.0.1:1/", "i", "TCPROS", "/lost", 1])
+    time.sleep(2.0)
+    told = len(heard)
+    time.sleep(2.0)
+    assert len(heard) == told
+    connections.clear()
+    own.unregisterSubscriber("/listener", "/lost", uri)
+    time.sleep(2.0)
+    assert ["/lost", ["/listener"]] not in far.getSystemState("/test")[2][1], "what was taken back stays so"
