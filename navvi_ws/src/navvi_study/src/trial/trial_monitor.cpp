@@ -137,7 +137,7 @@ record::Fields TrialMonitor::end_fields() const {
   std::vector<double> trips;
   double longest = 0.0, loss = 0.0;
   for (const LinkState& link : links_) {
-    if (end_ && link.stamp > *end_) continue;
+    if ((end_ && link.stamp > *end_) || link.round_trip == 0.0) continue;
     trips.push_back(link.round_trip);
     longest = std::max(longest, link.round_trip_99);
     loss += link.loss;

@@ -53,6 +53,16 @@ class Monitor : public testing::Test {
   TrialMonitor monitor_{TrialMonitorConfig()};
 };
 
+TEST_F(Monitor, counts_only_round_trips_that_were_measured) {
+  LinkState link;
+  for (const std::int64_t second : {11, 12, 13}) {
+    link.stamp = second * kSecond;
+    (void)monitor_.observe(link);
+    EXPECT_EQ(monitor_.end_fields().get("round_trip"), second < 13 ? "n/a" : "0.250");
+    link.round_trip = second < 12 ? 0.0 : 0.25;
+  }
+}
+
 TEST_F(Monitor, says_nothing_of_what_was_before_the_trial) {
   EXPECT_TRUE(monitor_.observe(contact(9.0, 1, "shelf", 1, 0)).empty());
   EXPECT_TRUE(monitor_.observe(guidance(10.0, State::arrived)).empty());
