@@ -5,13 +5,13 @@ Each line names the test that holds NavVI to it; `./navvi test accessibility` ru
 
  1. No control characters without a terminal, or with NO_COLOR, TERM=dumb, ACCESSIBLE=1: test_a_terminal_gets_no_control_characters,
     test_without_a_terminal_there_are_no_control_characters.
- 2. No line is drawn anew: test_progress_comes_in_whole_lines_with_percent_and_time_left (a carriage return is a control character).
+ 2. No line is drawn anew: test_progress_comes_in_whole_lines_with_percent_and_time_so_far (a carriage return is a control character).
  3. Progress as whole lines, 5 to 30 s apart: the same.
  4. Success in words: test_success_is_told_in_words.
- 5. An error's first line says what, where and what to do: test_an_error_begins_with_what_where_and_what_to_do; exit codes are
-    documented: test_help_is_short_and_tells_the_exit_codes.
+ 5. An error's first line says what, where and what to do: entry_test.py, test_a_wrong_word_is_refused_with_a_sentence; exit codes are
+    documented: test_help_is_short_without_columns_and_tells_the_exit_codes.
  6. Help of at most 40 lines of at most 80 characters: the same.
- 7. No meaning by colour or column: test_help_is_understood_without_colour_or_column.
+ 7. No meaning by colour or column: the same.
  8. Each table as csv, too: test_a_table_comes_as_csv_too.
  9. Long output goes to a file: test_long_output_goes_to_a_file.
 10. A man page: test_the_manual_holds_every_help.
@@ -34,6 +34,7 @@ Each line names the test that holds NavVI to it; `./navvi test accessibility` ru
 24. README and reports with headings, alternative texts, table headers: test_documents_have_headings_alt_texts_and_table_headers.
 """
 import ast
+import csv
 import os
 import re
 import shutil
@@ -43,7 +44,7 @@ import time
 
 import pytest
 
-from sessions import DARK, ROOT, navvi
+from sessions import DARK, ROOT, heed_ctrl_c, navvi
 
 pytestmark = pytest.mark.accessibility
 COMMANDS = sorted(path.stem for path in (ROOT / "navvi_cli/commands").glob("*.py"))
@@ -63,16 +64,10 @@ def controls(text):
 # --- help
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_help_is_short_and_tells_the_exit_codes(command):
-    lines = navvi(command, "--help").stdout.splitlines()
-    assert 3 < len(lines) <= 40
-    assert max(map(len, lines)) <= 80
-    assert command == "help" or re.search(r"^Exit codes\n0: ", "\n".join(lines), re.M)
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_help_is_understood_without_colour_or_column(command):
+def test_help_is_short_without_columns_and_tells_the_exit_codes(command):
     text = navvi(command, "--help").stdout
+    assert 3 < len(text.splitlines()) <= 40 and max(map(len, text.splitlines())) <= 80
+    assert command == "help" or re.search(r"^Exit codes\n0: ", text, re.M)
     assert "  " not in text and "\t" not in text, "what stands in a column is lost where lines are read one after the other"
 
 
@@ -161,20 +156,9 @@ def test_success_is_told_in_words(words, sentence, tmp_path):
     assert sentence in result.stdout
 
 
-@pytest.mark.parametrize("words", [["fly"], ["run", "x:=1"], ["run", "operator:=pad"], ["replay"], ["check", "/none"], ["bench", "none"], ["calibrate"], ["glossary"], ["tutorial", "x:=1"],
-                                   ["world", "show", "training", "-o", "a.gif"], ["navmesh"], ["build", "-x"], ["man", "-x"], ["world", "lst"], ["show"], ["watch", "port:=1"], ["completion", "fish"]],
-                         ids=lambda words: " ".join(words))
-def test_an_error_begins_with_what_where_and_what_to_do(words):
-    result = navvi(*words)
-    first = [line for line in result.stderr.splitlines() if not line.startswith(("navvi: building:", "navvi: waiting for another build"))][0]
-    assert result.returncode == 2 and first.startswith("navvi: ")
-    assert re.search(r"allowed|known are|lists them|such as|needs? none|do\.", first), first
-
-
 @pytest.mark.parametrize("words", [["parameters", "sim"], ["world", "list"], ["world", "check", "training"],
                                    ["navmesh", str(ROOT / "navvi_ws/src/navvi_nav/maps/hall.yaml")]], ids=lambda words: words[0])
 def test_a_table_comes_as_csv_too(words):
-    import csv
     result = navvi(*words, "--csv")
     rows = list(csv.reader(result.stdout.splitlines()))
     assert result.returncode == 0 and len(rows) > 4
@@ -193,11 +177,6 @@ BASH = f"""set -euo pipefail
 for part in "{ROOT}"/navvi_cli/shell/*.bash; do source "$part"; done
 stopped_by_signals
 """
-
-
-def heed_ctrl_c():
-    """Tests that run in the background inherit that SIGINT is ignored."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def bash(script, **more):
@@ -259,26 +238,18 @@ def test_a_command_that_is_killed_leaves_no_work_behind(tmp_path):
     assert subprocess.run(["pgrep", "-fx", "sleep 986"]).returncode == 1, "something is left running"
 
 
-def test_ctrl_c_ends_a_session_soon_and_says_so(tmp_path):
-    process = subprocess.Popen([str(ROOT / "navvi"), "run", "operator:=simulated", "rviz:=false", "world:=training", f"out:={tmp_path}"],
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=DARK, start_new_session=True,
-                               preexec_fn=heed_ctrl_c)
-    lines = []
-    for line in process.stdout:
-        lines.append(line)
-        if "has begun" in line:
-            break
+def test_ctrl_c_ends_a_session_soon_and_says_so(session, tmp_path):
+    begun = session("world:=training")
+    begun.wait_until_begun()
     time.sleep(3)
-    os.killpg(process.pid, signal.SIGINT)
+    begun.end()
     begin = time.monotonic()
-    rest = process.stdout.read()
-    process.wait(20)
-    assert "navvi: stopped by Ctrl-C; what was recorded is kept." in rest and "The goal was not reached: aborted" in rest
+    text = begun.wait_until_ended(20)
+    assert "navvi: stopped by Ctrl-C; what was recorded is kept." in text and "The goal was not reached: aborted" in text
     # Some 2 s, most of it for closing the record whole; no clock decides a test on a loaded machine.
     assert time.monotonic() - begin < 6 * slow()
-    text = "".join(lines) + rest
     assert controls(text) == []
-    start_tells_what_to_press(lines)
+    start_tells_what_to_press(begun.output)
     log = next(tmp_path.glob("session-*.log")).read_text()
     assert "started roslaunch server" in log and "NODES" in log and controls(log) == []
     assert "NODES" not in text
@@ -325,7 +296,6 @@ def test_of_the_cores(package, name):
 
 
 def test_each_sense_has_its_strength_and_its_switch():
-    import csv
     told = navvi("parameters", "feedback", "--csv")
     known = {row["parameter"] for row in csv.DictReader(told.stdout.splitlines())}
     assert {"speech", "speaker/volume", "haptics/enabled", "haptics/gain_left", "haptics/gain_right", "sounds/enabled"} <= known

@@ -1,5 +1,4 @@
 """A batch of trials: no row lost or doubled, and the same bytes however it was run. The trials themselves are played by a stand-in."""
-import csv
 import json
 import os
 import re
@@ -7,19 +6,18 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(ROOT / "navvi_ws/src/navvi_people/python")]
-from navvi_cli.commands import batch as command  # noqa: E402
-from navvi_people import batch  # noqa: E402
-from navvi_people.batch import BatchError  # noqa: E402
+from sessions import ROOT, rows_of
+from navvi_cli.commands import batch as command
+from navvi_people import batch
+from navvi_people.batch import BatchError
 
 STAND_IN = """#!/bin/sh
 case "$*" in --check*unknown*) echo 'navvi: the key "unknown" is unknown' >&2; exit 2 ;; --check*) exit 0 ;; esac
+echo "$@" >> {folder}/words
 # The row is a function of all that the trial is, wherever its record is kept.
 sum=$(echo "$@" | sed 's/ --out=[^ ]*//' | cksum)
 sum=${{sum%% *}}
@@ -47,10 +45,15 @@ def run_batch(program, args):
 
 
 def stand_in(folder, seconds=0.0, broken="none"):
+    """Writes the words of each trial to a file of the folder."""
     program = folder / f"stand_in_{seconds}_{broken}"
-    program.write_text(STAND_IN.format(seconds=seconds, broken=broken))
+    program.write_text(STAND_IN.format(folder=folder, seconds=seconds, broken=broken))
     program.chmod(0o755)
     return program
+
+
+def words_in(folder):
+    return [line.split() for line in (folder / "words").read_text().splitlines()]
 
 
 def args_of(out, **more):
@@ -92,12 +95,9 @@ def test_a_full_disk_names_the_file(tmp_path, monkeypatch):
 
 
 def test_trials_keep_as_much_of_worlds_as_asked_for(tmp_path):
-    program = tmp_path / "told"
-    program.write_text(stand_in(tmp_path).read_text().replace("# The row", f'echo "$@" >> {tmp_path}/words\n# The row'))
-    program.chmod(0o755)
-    assert run_batch(program, args_of(tmp_path / "a", cache=64)) == 0
-    words = (tmp_path / "words").read_text().splitlines()
-    assert len(words) == 36 and all("--cache=64" in line.split() for line in words)
+    assert run_batch(stand_in(tmp_path), args_of(tmp_path / "a", cache=64)) == 0
+    words = words_in(tmp_path)
+    assert len(words) == 36 and all("--cache=64" in each for each in words)
 
 
 def test_each_world_has_a_person_of_its_own_where_no_seeds_are_asked_for(tmp_path):
@@ -107,8 +107,7 @@ def test_each_world_has_a_person_of_its_own_where_no_seeds_are_asked_for(tmp_pat
 
 def test_a_trial_is_compared_with_that_of_the_same_hand_led_by_eyes(tmp_path):
     assert run_batch(stand_in(tmp_path), args_of(tmp_path / "a", conditions="sighted,default")) == 0
-    with open(tmp_path / "a/trials.csv", encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    rows = rows_of(tmp_path / "a/trials.csv")
     for sighted, default in zip(rows[::2], rows[1::2]):
         assert (sighted["condition"], default["condition"]) == ("sighted", "default") and sighted["over_sighted"] == "1.000"
         assert float(default["over_sighted"]) == pytest.approx(float(default["elapsed_s"]) / float(sighted["elapsed_s"]), abs=0.001)
@@ -128,8 +127,8 @@ def test_jobs_and_shards_change_no_byte(tmp_path):
 
 def test_a_batch_that_is_killed_twice_loses_and_doubles_no_trial(tmp_path):
     program = stand_in(tmp_path, 0.02)
-    code = ("import sys; sys.path[:0] = [%r, %r]; import batch_test; "
-            "batch_test.run_batch(%r, batch_test.args_of(%r, jobs=2))" % (str(ROOT), str(ROOT / "test"), str(program), str(tmp_path / "killed")))
+    code = ("import sys; sys.path.insert(0, %r); import batch_test; "
+            "batch_test.run_batch(%r, batch_test.args_of(%r, jobs=2))" % (str(ROOT / "test"), str(program), str(tmp_path / "killed")))
     rows = tmp_path / "killed/rows-1-of-1.csv"
     for least in (5, 15):
         process = subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL)
@@ -149,16 +148,12 @@ def test_a_batch_that_is_killed_twice_loses_and_doubles_no_trial(tmp_path):
 
 
 def test_a_batch_that_breaks_off_begins_no_trial_whose_row_nobody_would_write(tmp_path, monkeypatch):
-    program = tmp_path / "told"
-    program.write_text(stand_in(tmp_path, 0.05).read_text().replace("# The row", f'echo "$@" >> {tmp_path}/words\n# The row'))
-    program.chmod(0o755)
-
     def full(rows, line):
         raise OSError(28, "No space left on device")
     monkeypatch.setattr(batch.Rows, "append", full)
     with pytest.raises(OSError):
-        run_batch(program, args_of(tmp_path / "a", jobs=2))
-    assert len((tmp_path / "words").read_text().splitlines()) < 8, "of 36"
+        run_batch(stand_in(tmp_path, 0.05), args_of(tmp_path / "a", jobs=2))
+    assert len(words_in(tmp_path)) < 8, "of 36"
 
 
 def test_a_trial_that_fails_is_named_and_run_again_next_time(tmp_path, capsys):
@@ -197,12 +192,9 @@ def test_a_condition_with_a_word_that_is_no_parameter_is_refused_before_anything
 
 
 def test_records_are_kept_of_the_trials_that_are_asked_for(tmp_path):
-    program = tmp_path / "told"
-    program.write_text(stand_in(tmp_path).read_text().replace("# The row", f'echo "$@" >> {tmp_path}/words\n# The row'))
-    program.chmod(0o755)
-    assert run_batch(program, args_of(tmp_path / "a", records="all")) == 0
-    words = [set(line.split()) for line in (tmp_path / "words").read_text().splitlines()]
-    assert len(words) == 36 and all({"--records=all", f"--out={tmp_path}/a/records/{at}"} <= each for at, each in enumerate(words))
+    assert run_batch(stand_in(tmp_path), args_of(tmp_path / "a", records="all")) == 0
+    words = words_in(tmp_path)
+    assert len(words) == 36 and all({"--records=all", f"--out={tmp_path}/a/records/{at}"} <= set(each) for at, each in enumerate(words))
 
 
 def test_one_shard_is_written_by_one_process_at_a_time(tmp_path):

@@ -1,30 +1,18 @@
 """Pictures of a robot's camera over a connection."""
 import os
 import subprocess
-import sys
 import time
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 
 import numpy
 import pytest
 
-from sessions import ROOT, Programs, eventually
+from sessions import ROOT, Programs, eventually, script
 
 PROGRAM = ROOT / "navvi_ws/src/navvi_rviz/scripts/camera_link"
 
 
-@pytest.fixture(scope="module")
-def camera_link():
-    sys.dont_write_bytecode = True
-    spec = spec_from_loader("camera_link", SourceFileLoader("camera_link", str(PROGRAM)))
-    module = module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_pictures_give_way_to_commands_and_come_back_bit_by_bit(camera_link):
-    pace = camera_link.Pace()
+def test_pictures_give_way_to_commands_and_come_back_bit_by_bit():
+    pace = script(PROGRAM).Pace()
     for _ in range(60):
         pace.hear(0.05, False)
     assert pace.rate == 15.0

@@ -1,5 +1,4 @@
 """Path, goal and near things over the picture of a robot's own camera."""
-import os
 import threading
 import time
 
@@ -49,18 +48,14 @@ class Camera(Picture):
         self.thread = threading.Thread(target=show)
         self.thread.start()
 
-    def close(self):
+    def __exit__(self, *given):
         self.sees = False
         self.thread.join()
-        super().close()
+        super().__exit__(*given)
 
 
 def test_the_path_and_the_goal_lie_over_the_robots_own_picture(master, tmp_path):
-    import rospy
-    os.environ.update(master)
-    rospy.init_node("camera_test", disable_signals=True)
-    camera = Camera(master, "high_contrast")
-    try:
+    with Camera(master, "high_contrast") as camera:
         guide = camera.scene()["/navvi/markers"]
         camera.topics["/navvi/markers"].publish(guide)
         time.sleep(8)
@@ -70,8 +65,6 @@ def test_the_path_and_the_goal_lie_over_the_robots_own_picture(master, tmp_path)
         camera.topics["/navvi/markers"].publish(guide)
         time.sleep(2)
         without = numpy.asarray(camera.shot(tmp_path / "without.png", BESIDE), dtype=int)
-    finally:
-        camera.close()
     changed = abs(with_path - without).max(axis=2) > 60
     grey = (abs(without - without.mean(axis=2, keepdims=True)).max(axis=2) < 3) & (abs(without.mean(axis=2) - 90) < 25)
     assert grey.sum() > 100000, "the camera's picture is there"

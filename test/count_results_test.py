@@ -1,6 +1,5 @@
 """The last line of a test run must be able to say that something failed."""
 import os
-import pathlib
 import re
 import subprocess
 import sys
@@ -9,8 +8,9 @@ import pytest
 
 import count_results
 import run_tests
+from sessions import ROOT
 
-SCRIPT = pathlib.Path(__file__).with_name("count_results.py")
+SCRIPT = ROOT / "test/count_results.py"
 PASSED = '<testsuite><testcase name="navvi_sim/live/world" classname="navvi_sim/live/world" status="run"/></testsuite>'
 FAILED = '<testsuite><testcase name="navvi_sim/live/world" classname="navvi_sim/live/world"><failure/><system-out>signal 11</system-out></testcase></testsuite>'
 
@@ -30,37 +30,19 @@ def run(tmp_path):
     return count
 
 
-def test_nothing_run_is_a_failure(run):
-    code, lines = run("<testsuite/>")
-    assert (code, lines[-1]) == (1, "0 passed, 0 failed")
-
-
-def test_passed_failed_and_skipped_are_told_apart(run):
-    code, lines = run(FAILED, world='<testsuites><testsuite><testcase name="a" status="run"/><testcase name="b"><failure/>'
-                      '</testcase><testcase name="c"><skipped message="no sdformat"/></testcase></testsuite></testsuites>')
-    assert (code, lines[-1]) == (1, "1 passed, 1 failed, 1 skipped")
-    assert "skipped: c: no sdformat" in lines
-
-
-def test_a_result_broken_off_is_a_failure(run):
-    code, lines = run(PASSED, world="<testsuites><testsu")
-    assert (code, lines[-1]) == (1, "0 passed, 1 failed")
-
-
-def test_a_program_that_crashed_without_a_result_is_a_failure(run):
-    code, lines = run(FAILED)
-    assert (code, lines[-1]) == (1, "0 passed, 1 failed")
-    assert "  signal 11" in lines
-
-
-def test_a_program_that_crashed_after_tests_that_passed_is_a_failure(run):
-    code, lines = run(FAILED, world='<testsuite><testcase name="a"/></testsuite>')
-    assert (code, lines[-1]) == (1, "1 passed, 1 failed")
-
-
-def test_all_passed_ends_well(run):
-    code, lines = run(PASSED, world='<testsuite><testcase name="a"/></testsuite>')
-    assert (code, lines[-1]) == (0, "1 passed, 0 failed")
+@pytest.mark.parametrize("ctest, written, code, said", [
+    pytest.param("<testsuite/>", {}, 1, ["0 passed, 0 failed"], id="nothing_run_is_a_failure"),
+    pytest.param(FAILED, {"world": '<testsuites><testsuite><testcase name="a" status="run"/><testcase name="b"><failure/></testcase>'
+                          '<testcase name="c"><skipped message="no sdformat"/></testcase></testsuite></testsuites>'},
+                 1, ["1 passed, 1 failed, 1 skipped", "skipped: c: no sdformat"], id="passed_failed_and_skipped_are_told_apart"),
+    pytest.param(PASSED, {"world": "<testsuites><testsu"}, 1, ["0 passed, 1 failed"], id="a_result_broken_off_is_a_failure"),
+    pytest.param(FAILED, {}, 1, ["0 passed, 1 failed", "  signal 11"], id="a_crash_without_a_result_is_a_failure"),
+    pytest.param(FAILED, {"world": '<testsuite><testcase name="a"/></testsuite>'}, 1, ["1 passed, 1 failed"], id="a_crash_after_tests_that_passed_is_a_failure"),
+    pytest.param(PASSED, {"world": '<testsuite><testcase name="a"/></testsuite>'}, 0, ["1 passed, 0 failed"], id="all_passed_ends_well"),
+])
+def test_the_last_line_counts_what_came_of_the_programs(run, ctest, written, code, said):
+    ended, lines = run(ctest, **written)
+    assert (ended, lines[-1]) == (code, said[0]) and set(said) <= set(lines)
 
 
 def test_the_slowest_tests_come_first(run):

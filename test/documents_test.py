@@ -3,24 +3,21 @@
 What measures, needs a person's devices or another machine is parsed alone; what runs until it is stopped ends at its ready line.
 """
 import os
-import pathlib
 import re
 import shlex
 import shutil
 import signal
 import subprocess
-import sys
 import time
 
 import pytest
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), *(str(ROOT / f"navvi_ws/src/{package}/python") for package in ("navvi_people", "navvi_study"))]
-from display import Display  # noqa: E402
-from navvi_cli.arguments import LaunchFile, words_for  # noqa: E402
-from navvi_cli.main import parser_of  # noqa: E402
-from navvi_cli.say import Failure  # noqa: E402
-from navvi_people import batch  # noqa: E402
+from display import Display
+from sessions import ROOT
+from navvi_cli.arguments import LaunchFile, words_for
+from navvi_cli.main import parser_of
+from navvi_cli.say import Failure
+from navvi_people import batch
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "doc").glob("*.md"))]
 ELSEWHERE = ("git clone", "cd navvi", "podman", "apt ", "sudo ", "parallel ")  # other machines, and the system itself
@@ -127,7 +124,7 @@ def test_a_command_is_taken(page, before, line, papers, monkeypatch):
             if words[0] == "batch":
                 assert batch.trials_of(args) and batch.shard_of(args.shard)
     for name, words in re.findall(r"^roslaunch navvi (\w+\.launch)(.*)", line):
-        known = {arg for path in [ROOT / "launch" / name] for arg in re.findall(r'<arg name="(\w+)"', path.read_text())}
+        known = set(re.findall(r'<arg name="(\w+)"', (ROOT / "launch" / name).read_text()))
         assert {word.partition(":=")[0] for word in shlex.split(words)} <= known, page
 
 

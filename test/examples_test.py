@@ -1,18 +1,16 @@
 """Each program of examples/ runs, and prints what its first lines promise."""
 import re
-import subprocess
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from sessions import ROOT, sourced
+
 LIB = ROOT / "navvi_ws/devel/lib/navvi_people"
 EXAMPLES = sorted((ROOT / "examples").iterdir())
 
 
 def printed(*command):
-    done = subprocess.run(["bash", "-c", f"source {ROOT}/navvi_ws/devel/setup.bash && exec \"$@\"", "bash", *map(str, command)], cwd=ROOT, text=True,
-                          capture_output=True, timeout=300, check=False)
+    done = sourced(*command, cwd=ROOT)
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
 

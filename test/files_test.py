@@ -2,26 +2,18 @@
 import os
 import re
 import resource
-import subprocess
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+import small_study
+from sessions import ROOT, sourced
+
 LIB = ROOT / "navvi_ws/devel/lib"
 MEMORY = 1 << 30  # bytes; the programs alone take 100 to 300 MB of it
 SECONDS = 30
 SECRET = "the sixth line that nobody may cite"
-PLAN = """
-study: small
-title: A small study
-groups: {all: {participants: sub-01..sub-04}}
-conditions: {full: {picture: false}, plain: {picture: false, touch: false}}
-worlds: {sets: {a: {world: WORLD, seeds: [1]}, b: {world: easy, seeds: [2]}}, reserve: {world: easy, seeds: 11..12}}
-limit: 60
-consent: CONSENT
-outcomes: {primary: {measure: time, conditions: [plain, full]}}
-"""
+PLAN = small_study.PLAN.replace("{world: easy, seeds: [1]}", "{world: WORLD, seeds: [1]}").replace("limit: 60", "limit: 60\nconsent: CONSENT")
 
 
 def program(package, name, *words):
@@ -107,8 +99,7 @@ def test_P1_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path)
     words, more = command(file)
     if kind == "person" and fault == "no file" or kind == "world of a plan" and file.is_file():
         pytest.skip("a new name begins a new file; what is in a world is read when it is driven in")
-    done = subprocess.run(["bash", "-c", f"source {ROOT}/navvi_ws/devel/setup.bash && exec \"$@\"", "bash", *words], env=dict(os.environ, **more), text=True,
-                          errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=SECONDS, preexec_fn=bounded, check=False)
+    done = sourced(*words, env=dict(os.environ, **more), errors="replace", timeout=SECONDS, preexec_fn=bounded)
     said = done.stdout + done.stderr
     assert done.returncode == 2, said[-2000:]
     assert "Traceback" not in said and "bad_alloc" not in said and SECRET not in said

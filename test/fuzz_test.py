@@ -7,8 +7,8 @@ import struct
 import pytest
 
 from small_study import EXAMPLE, PACKAGE
-from navvi_study import journal, plan_file, questionnaire, record  # noqa: E402
-from navvi_study.errors import StudyError  # noqa: E402
+from navvi_study import journal, plan_file, questionnaire, record
+from navvi_study.errors import StudyError
 
 ROUNDS = int(os.environ.get("NAVVI_FUZZ", "300"))
 TOKENS = [b"nan", b"-1", b"1e308", b"9" * 30, b"", b" ", b"\n", b"\0", b"\xff\xfe", b"\xc2\xb2", b"{", b"}", b"[" * 3000, b"\"", b":", b",", b";", b"=",

@@ -1,12 +1,8 @@
 """The tables of doc/guidance.md, of rows whose figures are known by hand."""
-import sys
-from pathlib import Path
 from types import SimpleNamespace
 from xml.etree import ElementTree
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "navvi_ws/src/navvi_people/python"))
-from navvi_people import batch, guidance_page as page, guidance_plots as plots, guidance_tables as tables  # noqa: E402
+from navvi_people import batch, guidance_page as page, guidance_plots as plots, guidance_tables as tables
 
 
 def row(seed, person="able", condition="default", **more):

@@ -50,17 +50,15 @@ def test_who_drives_hears_that_the_session_ends(master, tmp_path):
     said = []
     rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and said.append((cue.kind, cue.stage)))
     trial = rospy.Publisher("/navvi/trial_state", TrialState, queue_size=1, latch=True)
-    node = subprocess.Popen(["rosrun", "navvi_feedback", "feedback_node", "_input:=topic"], env=dict(master, **sound(tmp_path)))
 
     def until(kind, stage):
         assert eventually(lambda: (kind, stage) in said), said
-
-    trial.publish(TrialState(state=TrialState.READY))
-    until("press_start", Cue.QUEUED)
-    trial.publish(TrialState(state=TrialState.RUNNING))
-    until("trial_begins", Cue.QUEUED)
-    node.terminate()
-    node.wait(60)
+    with Programs(dict(master, **sound(tmp_path))) as programs:
+        programs.start("rosrun", "navvi_feedback", "feedback_node", "_input:=topic")
+        trial.publish(TrialState(state=TrialState.READY))
+        until("press_start", Cue.QUEUED)
+        trial.publish(TrialState(state=TrialState.RUNNING))
+        until("trial_begins", Cue.QUEUED)
     until("trial_over", Cue.ENDED)
     assert ("trial_over", Cue.STARTED) in said
 

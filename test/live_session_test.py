@@ -18,7 +18,7 @@ from octomap_msgs.msg import Octomap
 
 import hearing
 from display import Display
-from sessions import ROOT, WORLD, Session, rows_of, sound, summary
+from sessions import DARK, WORLD, Command, Session, rows_of, sound, summary
 
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/odom", "/octomap_binary", "/occupied_cells_vis_array", "/navvi/scene",
@@ -46,10 +46,6 @@ class Watched(Session):
         rospy.Subscriber("/navvi/command", TwistStamped, lambda msg: setattr(self, "command", msg.twist.linear.x))
         rospy.Subscriber("/octomap_binary", Octomap, lambda msg: setattr(self, "octomap", msg))
 
-    def nodes(self):
-        publishers, subscribers, _ = rosgraph.Master("/observer", self.uri).getSystemState()
-        return {name for _, names in publishers + subscribers for name in names}
-
     def topics(self):
         return {name for name, _ in rosgraph.Master("/observer", self.uri).getTopicTypes()}
 
@@ -69,8 +65,7 @@ def session(tmp_path_factory):
                  "feedback/drive/expo:=0.2", "nav/replan/hold_time:=5", "feedback/speaker/pitch:=55") as session:
         session.watch()
         session.wait_until(lambda: "/navvi/events" in session.topics() and session.command > 0, 90, "the robot is driven")
-        session.seen_topics, session.seen_nodes = session.topics(), session.nodes()
-        session.sockets = session.listening()
+        session.seen_topics, session.sockets = session.topics(), session.listening()
         time.sleep(2)
         session.picture = session.folder / "picture.png"
         session.display.shot(session.picture)
@@ -95,9 +90,8 @@ def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert re.fullmatch(r"\d+\.\d+\.\d+(\+[0-9a-f]+(-dirty)?)?", summary(trial.parent)["version"])
 
 
-def test_topics_and_nodes_have_the_names_of_the_picture(session):
+def test_topics_have_the_names_of_the_picture(session):
     assert TOPICS <= session.seen_topics
-    assert {"/sim_node", "/nav_node", "/feedback_node", "/trial_node", "/operator_node"} <= session.seen_nodes
 
 
 def test_nothing_listens_beyond_the_loopback_interface(session):
@@ -120,16 +114,22 @@ def test_the_bag_holds_the_topics_and_agrees_with_the_summary(trial):
     subprocess.run(["rosrun", "navvi_study", "count_trial", "bag", str(trial)], check=True, timeout=120)
 
 
+def places_shown(trial, scenes):
+    """Of the robot in each scene, with that of its odometry at the time."""
+    with rosbag.Bag(str(trial / "trial.bag")) as bag:
+        places = {message.header.stamp: message.pose.pose.position for _, message, _ in bag.read_messages(["/odom"])}
+    robots = [marker for scene in scenes for marker in scene.markers if (marker.ns, marker.id) == ("robot", 0)]
+    return [(robot.pose.position, places[robot.header.stamp]) for robot in robots if robot.header.stamp in places]
+
+
 def test_a_plain_replay_shows_the_robot_and_what_moves_twice_a_second(trial):
     """`rosbag play` with our RViz, without the nodes that make the picture anew."""
     with rosbag.Bag(str(trial / "trial.bag")) as bag:
         seconds = bag.get_end_time() - bag.get_start_time()
         scenes = [scene for _, scene, _ in bag.read_messages(["/navvi/scene_moving"])]
-        places = {message.header.stamp: message.pose.pose.position for _, message, _ in bag.read_messages(["/odom"])}
         assert any(True for _ in bag.read_messages(["/navvi/scene"]))
     assert 1.5 * seconds < len(scenes) < 2.5 * seconds + 2
-    robots = [marker for scene in scenes for marker in scene.markers if (marker.ns, marker.id) == ("robot", 0)]
-    shown = [(robot.pose.position, places[robot.header.stamp]) for robot in robots if robot.header.stamp in places]
+    shown = places_shown(trial, scenes)
     assert len(shown) > seconds and all(abs(at.x - was.x) < 0.01 and abs(at.y - was.y) < 0.01 for at, was in shown)
 
 
@@ -226,33 +226,19 @@ def test_the_picture_shows_path_goal_boxes_and_robot(session):
 
 
 def test_a_recorded_trial_plays_again(session, trial, tmp_path):
-    env = dict(os.environ, ALSOFT_DRIVERS="null")
-    env.pop("DISPLAY", None)
-    replay = subprocess.Popen([str(ROOT / "navvi"), "replay", str(trial), "rate:=4", "rviz:=false"], env=env, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    said = ""
-    while "ROS_MASTER_URI" not in said:
-        line = replay.stdout.readline()
-        assert line, said
-        said += line
-    uri = re.search(r"ROS_MASTER_URI=(\S+)", said).group(1)
-    while not rosgraph.is_master_online(uri):
-        time.sleep(0.05)
     seen = tmp_path / "seen.bag"
-    watcher = subprocess.Popen(["/usr/lib/rosbag/record", "-q", "-O", str(seen), *PICTURE],
-                               env=dict(env, ROS_MASTER_URI=uri, ROS_IP="127.0.0.1"), stdout=subprocess.DEVNULL)
-    said += replay.communicate(timeout=180)[0]
-    watcher.send_signal(signal.SIGINT)
-    watcher.wait(20)
-    assert replay.returncode == 0, said[-2000:]
+    with Command("replay", trial, "rate:=4", "rviz:=false", ALSOFT_DRIVERS="null") as replay:
+        replay.wait_until_ready()
+        watcher = replay.start("/usr/lib/rosbag/record", "-q", "-O", seen, *PICTURE, env=dict(DARK, ROS_MASTER_URI=replay.uri, ROS_IP="127.0.0.1"))
+        said = replay.wait_until_ended(180)
+        watcher.send_signal(signal.SIGINT)
+        watcher.wait(20)
+    assert replay.process.returncode == 0, said[-2000:]
     assert "The voice is en, at 220 words a minute and pitch 55." in (trial / "replay.log").read_text()
     # The whole picture, and in it the robot where it was.
-    with rosbag.Bag(str(trial / "trial.bag")) as bag:
-        places = {message.header.stamp: message.pose.pose.position for _, message, _ in bag.read_messages(["/odom"])}
     with rosbag.Bag(str(seen)) as bag:
         assert {topic for topic, _, _ in bag.read_messages()} == set(PICTURE)
-        robots = [marker for _, scene, _ in bag.read_messages(["/navvi/scene_moving"]) for marker in scene.markers
-                  if (marker.ns, marker.id) == ("robot", 0)]
-    shown = [(robot.pose.position, places[robot.header.stamp]) for robot in robots if robot.header.stamp in places]
+        scenes = [scene for _, scene, _ in bag.read_messages(["/navvi/scene_moving"])]
+    shown = places_shown(trial, scenes)
     assert len(shown) > 10
     assert all((at.x, at.y) == (was.x, was.y) for at, was in shown)

@@ -1,12 +1,8 @@
 """What the pictures of worlds and meshes show, without a program that describes them."""
-import pathlib
-import sys
-
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
-from navvi_cli import maps  # noqa: E402
+from navvi_cli import maps
 
 CORNERS = np.array([[x, y, z] for z in (-.5, .5) for y in (-.5, .5) for x in (-.5, .5)])
 

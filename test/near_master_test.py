@@ -1,5 +1,4 @@
 """The robot's master, near to the person's nodes: a real one, and what a node tells it and hears of it."""
-import sys
 import threading
 import time
 from xmlrpc.client import ServerProxy
@@ -7,11 +6,9 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
-from sessions import ROOT, eventually
-
-sys.path.insert(0, str(ROOT))
-from navvi_cli import near_master  # noqa: E402
-from navvi_cli.near_master import NearMaster  # noqa: E402
+from sessions import eventually
+from navvi_cli import near_master
+from navvi_cli.near_master import NearMaster
 
 
 @pytest.fixture

@@ -1,6 +1,7 @@
 """The panel in RViz: as a screen reader meets it, by keys, and how large its letters are."""
 import functools
 import os
+import pathlib
 import subprocess
 import tempfile
 import time
@@ -12,10 +13,10 @@ from picture_test import KINDS, THINGS, Picture, luminance
 
 pytestmark = pytest.mark.accessibility
 
-QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 BUTTONS = {"Start": "F5", "End trial": "F8", "Repeat": "R", "Goal": "G", "Around": "A", "Chase": "1", "Top": "2", "Forward": "3",
            "Tools": "F2", "Settings": "F3"}
 MENU = {"Down": "page down", "Up": "page up", "Choose": "enter", "Back": "back space"}
+SIGHT = (10, 40, 1910, 775)  # px, above the panel
 LEAST = 26  # px, of capital letters on a screen of 1080 rows
 
 
@@ -41,11 +42,11 @@ class Desk(Picture):
         self.folder = tempfile.TemporaryDirectory()  # where the accessibility bus has its socket
         self.env["XDG_RUNTIME_DIR"] = self.folder.name
         read, write = os.pipe()
-        bus = subprocess.Popen(["dbus-daemon", "--session", "--nofork", f"--print-address={write}"], pass_fds=[write], env=self.env, **QUIET)
+        self.start("dbus-daemon", "--session", "--nofork", f"--print-address={write}", pass_fds=[write])
         os.close(write)
         with os.fdopen(read) as pipe:
             self.env["DBUS_SESSION_BUS_ADDRESS"] = pipe.readline().strip()
-        self.processes += [bus, subprocess.Popen(["openbox"], env=self.env, **QUIET)]
+        self.start("openbox")
         os.environ.update(self.env)
         import pyatspi
         pyatspi.setTimeout(30000, 60000)  # ms; a loaded machine draws a picture a second, and answers between two
@@ -92,16 +93,27 @@ class Desk(Picture):
         box = self.widget(word).queryComponent().getExtents(self.registry.DESKTOP_COORDS)
         return box.x, box.y, box.x + box.width, box.y + box.height
 
+    def pixels(self, sight=SIGHT):
+        time.sleep(1)
+        return numpy.asarray(self.shot(pathlib.Path(self.folder.name, "shot.png"), sight), dtype=int)
+
+    def plate(self, text, place):
+        """Words at a place, besides all else that the guide shows."""
+        label = self.marker("goal", 9, self.Marker.TEXT_VIEW_FACING, at=place)
+        label.text = text
+        self.topics["/navvi/markers"].publish([label, *self.scene()["/navvi/markers"]])
+
+
+def differ(one, other, by=30):
+    return abs(one - other).max(axis=2) > by
+
 
 @pytest.fixture(scope="module")
 def desk(master):
     import rospy
     from navvi_msgs.msg import Cue, TrialRequest, TrialState
     from std_msgs.msg import String
-    os.environ.update(master)
-    rospy.init_node("panel_test", disable_signals=True)
-    desk = Desk(master, "high_contrast")
-    try:
+    with Desk(master, "high_contrast") as desk:
         desk.asked, desk.requests = [], []  # two topics: which of them comes first is chance
         subscribers = [rospy.Subscriber("/navvi/ask", String, lambda msg: desk.asked.append(msg.data)),
                        rospy.Subscriber("/navvi/trial_request", TrialRequest, lambda msg: desk.requests.append(msg.request))]
@@ -111,8 +123,6 @@ def desk(master):
         eventually(lambda: all(link.get_num_connections() for link in [*subscribers, desk.cues, desk.orders, desk.state]), 120)
         eventually(lambda: desk.has(desk.window(), "ACTIVE"))
         yield desk
-    finally:
-        desk.close()
 
 
 def say(desk, text, kind="direction", stage=1):  # started
@@ -235,107 +245,64 @@ def test_a_key_shows_and_hides_what_else_rviz_has(desk):
     eventually(lambda: not desk.has(bar(), "SHOWING"))
 
 
-def test_keys_choose_the_view(desk, tmp_path):
+def test_keys_choose_the_view(desk):
+    sight = (10, 40, 1910, 800)
     desk.show(THINGS)
     shots = []
     for key in ("3", "2", "1", "2"):
         desk.press(key)
-        time.sleep(1)
-        shots.append(numpy.asarray(desk.shot(tmp_path / "view.png", (10, 40, 1910, 800)), dtype=int))
-    differ = [[(abs(a - b).max(axis=2) > 30).mean() for a in shots] for b in shots]
-    print(numpy.round(differ, 3))
-    assert differ[1][3] < 0.01, "the same key shows the same view"
-    assert min(differ[0][1], differ[0][2], differ[1][2]) > 0.05, "each key shows its own"
+        shots.append(desk.pixels(sight))
+    shares = [[differ(a, b).mean() for a in shots] for b in shots]
+    print(numpy.round(shares, 3))
+    assert shares[1][3] < 0.01, "the same key shows the same view"
+    assert min(shares[0][1], shares[0][2], shares[1][2]) > 0.05, "each key shows its own"
     desk.press("1", "1", "2", "3", "2", "2")  # faster than pictures are drawn
-    time.sleep(1)
-    last = numpy.asarray(desk.shot(tmp_path / "view.png", (10, 40, 1910, 800)), dtype=int)
-    assert (abs(last - shots[1]).max(axis=2) > 30).mean() < 0.01, "RViz lives, and shows the last"
+    assert differ(desk.pixels(sight), shots[1]).mean() < 0.01, "RViz lives, and shows the last"
     desk.press("1")
 
 
-def test_no_plate_lies_over_the_robot(desk, tmp_path):
-    sight = (10, 40, 1910, 775)
-    set_state(desk, "RUNNING")
-    desk.show([thing for thing in THINGS if thing != "robot"])
-    label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=(-0.2, 0, 0))
-    label.text = "in 1.5 m, 10 o'clock"
-    without = desk.shot(tmp_path / "without.png", sight)
-    desk.show(THINGS)
-    time.sleep(1)
-    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
-    desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]])
-    time.sleep(1)
-    plated = numpy.asarray(desk.shot(tmp_path / "plated.png", sight), dtype=int)
-    robot = abs(bare - numpy.asarray(without, dtype=int)).max(axis=2) > 30
-    assert robot.sum() > 500 and (abs(plated - bare).max(axis=2) > 30).sum() > 2000, "robot and plate are there"
-    assert (abs(plated - bare).max(axis=2)[robot] > 30).sum() == 0
-    desk.show(THINGS)
+STUMBLED_OVER = [*KINDS["movers"], "goal", "pedestal"]
 
 
-@pytest.mark.parametrize("view", ["1", "2"])
-def test_no_plate_lies_over_the_path(desk, tmp_path, view):
-    sight = (10, 40, 1910, 800)
+@pytest.mark.parametrize("hidden, least, places, view", [
+    (["robot"], 500, [(-0.2, 0, 0)], "1"), (["path"], 5000, [(7.4, -0.8, 0)], "1"), (["path"], 5000, [(7.4, -0.8, 0)], "2"),
+    (STUMBLED_OVER, 2000, [(10.5, -2.6, 0), (6.0, -3.2, 0), (5.0, 0.2, 0)], "1"), (STUMBLED_OVER, 2000, [(10.5, -2.6, 0), (6.0, -3.2, 0), (5.0, 0.2, 0)], "2"),
+], ids=["robot", "path", "path_from_above", "what_moves_or_is_stumbled_over", "what_moves_or_is_stumbled_over_from_above"])
+def test_no_plate_lies_over(desk, hidden, least, places, view):
+    """\\param hidden  found by taking it away \\param least  px of it"""
     set_state(desk, "RUNNING")
     desk.press(view)
+    desk.show([thing for thing in THINGS if thing not in hidden])
+    without = desk.pixels()
     desk.show(THINGS)
-    time.sleep(1)
-    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
-    label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=(7.4, -0.8, 0))
-    label.text = "in 7 m, 9 o'clock"
-    desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]])
-    time.sleep(1)
-    plated = numpy.asarray(desk.shot(tmp_path / "plated.png", sight), dtype=int)
-    path = abs(bare - [209, 115, 255]).max(axis=2) < 12
-    changed = abs(plated - bare).max(axis=2) > 30
-    assert path.sum() > 5000 and changed.sum() > 2000, "path and plate are there"
-    assert (changed & path).sum() == 0
-    desk.show(THINGS)
-    desk.press("1")
-
-
-@pytest.mark.parametrize("view", ["1", "2"])
-def test_no_plate_lies_over_the_goal_what_moves_or_is_stumbled_over(desk, tmp_path, view):
-    sight = (10, 40, 1910, 800)
-    set_state(desk, "RUNNING")
-    desk.press(view)
-    desk.show([thing for thing in THINGS if thing not in (*KINDS["movers"], "goal", "pedestal")])
-    time.sleep(1)
-    without = numpy.asarray(desk.shot(tmp_path / "without.png", sight), dtype=int)
-    desk.show(THINGS)
-    time.sleep(1)
-    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
-    things = abs(bare - without).max(axis=2) > 60
-    for place in [(10.5, -2.6, 0), (6.0, -3.2, 0), (5.0, 0.2, 0)]:
-        label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=place)
-        label.text = "in 7 m, 9 o'clock"
-        desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]])
-        time.sleep(1)
-        plated = numpy.asarray(desk.shot(tmp_path / "plated.png", sight), dtype=int)
-        changed = abs(plated - bare).max(axis=2) > 30
-        assert things.sum() > 2000 and changed.sum() > 2000, "things and plate are there"
+    bare = desk.pixels()
+    # Of the path its fill alone.
+    things = abs(bare - [209, 115, 255]).max(axis=2) < 12 if hidden == ["path"] else differ(bare, without, 60)
+    for place in places:
+        desk.plate("in 7 m, 10 o'clock", place)
+        changed = differ(desk.pixels(), bare)
+        assert things.sum() > least and changed.sum() > 2000, "things and plate are there"
         assert (changed & things).sum() == 0, place
     desk.show(THINGS)
     desk.press("1")
 
 
 @pytest.mark.parametrize("view, x", [("1", 30.0), ("3", -4.0)])
-def test_who_the_banner_warns_of_is_pointed_to(desk, tmp_path, view, x):
+def test_who_the_banner_warns_of_is_pointed_to(desk, view, x):
     from geometry_msgs.msg import Vector3
-    sight = (10, 40, 1910, 775)
     set_state(desk, "RUNNING")
     desk.press(view)
     desk.show(THINGS)
     desk.move([])
     order(desk, "wait, forklift in the way", "blocked")
-    time.sleep(1)
-    bare = numpy.asarray(desk.shot(tmp_path / "bare.png", sight), dtype=int)
+    bare = desk.pixels()
     desk.move([("forklift", x, -4.0, Vector3(2.4, 1.0, 2.1)), ("worker", 2.0, 0.0, Vector3(0.5, 0.5, 1.8))])
-    time.sleep(8 if view == "1" else 1)  # the view goes back until it sees them, or as far as it does
-    pointed = numpy.asarray(desk.shot(tmp_path / "pointed.png", sight), dtype=int)
+    time.sleep(7 if view == "1" else 0)  # the view goes back until it sees them, or as far as it does
+    pointed = desk.pixels()
     order(desk)
     desk.show(THINGS)
     time.sleep(5)
-    assert (abs(pointed - bare).max(axis=2) > 30).sum() > 5000
+    assert differ(pointed, bare).sum() > 5000
     white = (pointed.min(axis=2) > 250) & (bare.max(axis=2) < 250)
     assert white.sum() > 3000, "the name stands on a bright plate"
     desk.press("1")
@@ -369,10 +336,8 @@ def heights(desk, folder):
     found = {}
     for word in ("instruction", "Start", "Goal", "Top", "Tools"):
         found[word] = glyph(desk.shot(folder / "panel.png", inside(desk.area(word), 8)))
-    label = desk.marker("goal", 9, desk.Marker.TEXT_VIEW_FACING, at=(6, 0, 0.5))
-    label.text = "GOAL"
     for name, show, hide, letter in [
-            ("plate", lambda: desk.topics["/navvi/markers"].publish([label, *desk.scene()["/navvi/markers"]]), lambda: desk.show(THINGS), 0),
+            ("plate", lambda: desk.plate("GOAL", (6, 0, 0.5)), lambda: desk.show(THINGS), 0),
             ("banner", lambda: order(desk, "press start to begin"), lambda: order(desk), 1)]:
         show()
         time.sleep(1)

@@ -2,11 +2,11 @@
 import json
 import re
 import subprocess
-from pathlib import Path
 
 import yaml
 
-ROOT = Path(__file__).resolve().parent.parent
+from sessions import ROOT
+
 SOURCES = ROOT / "navvi_ws/src"
 PARTS = {"relay_node": "safety", "cue_player": "feedback", "world_tool": "sim"}
 

@@ -1,19 +1,16 @@
 """A person's settings: changed while driving, heard and felt at once, kept in their file, true in the records of trials to come."""
 import os
 import subprocess
-import sys
 import time
-from pathlib import Path
 
 import pytest
 import rospy
 import yaml
 from navvi_msgs.msg import Cue
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "navvi_ws/src/navvi_study/python"))
-from hands import Hands  # noqa: E402
-from navvi_study import questionnaire  # noqa: E402
-from sessions import eventually  # noqa: E402
+from hands import Hands
+from navvi_study import questionnaire
+from sessions import eventually
 
 SELECT, START, UP, DOWN, LEFT, RIGHT = "end", "start", "previous", "next", "back", "choose"
 

@@ -1,7 +1,6 @@
 """What a person with little sight sees: contrast, measured on pictures of RViz with and without each thing."""
 import itertools
 import os
-import pathlib
 import subprocess
 import time
 
@@ -11,8 +10,8 @@ import scipy.ndimage
 from PIL import Image, ImageChops, ImageFilter
 
 from display import Display
+from sessions import Programs
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 pytestmark = pytest.mark.accessibility
 VISIONS = ["high_contrast", "yellow_on_black", "large", "color_blind"]
 # The least share of a thing's outline that stands out. Seen forward, boards and boxes are before some, and end there with edges of their own.
@@ -61,7 +60,7 @@ def edge_contrast(shown, without, near, solid):
     return best[around], inside
 
 
-class Picture:
+class Picture(Programs):
     """RViz with a hand-made scene on a virtual screen."""
     filled = True
     words = []  # for the launch file
@@ -72,10 +71,12 @@ class Picture:
         from std_msgs.msg import ColorRGBA
         from tf2_msgs.msg import TFMessage
         from visualization_msgs.msg import Marker, MarkerArray
+        from navvi_msgs.msg import Obstacles
+        os.environ.update(env)
+        rospy.init_node("picture", disable_signals=True)
         self.Marker, self.Point, self.Color = Marker, Point, ColorRGBA
         self.display = Display(size)
-        self.env = dict(env, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1")
-        self.processes = []
+        super().__init__(dict(env, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1"))
         self.furnish()
         frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         transforms = []
@@ -87,13 +88,11 @@ class Picture:
         frames.publish(TFMessage(transforms))
         self.topics = {name: rospy.Publisher(name, MarkerArray, queue_size=10, latch=True)
                        for name in ("/navvi/scene", "/navvi/scene_moving", "/navvi/markers")}
-        from navvi_msgs.msg import Obstacles
         self.frames = frames
         self.obstacles = rospy.Publisher("/navvi/obstacles", Obstacles, queue_size=1, latch=True)
         if self.filled:
             self.show(THINGS)
-        self.processes.append(subprocess.Popen(["roslaunch", str(ROOT / "launch/picture.launch"), f"vision:={vision}", f"view:={view}", *self.words],
-                                               env=self.env, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True))
+        self.launch("picture.launch", f"vision:={vision}", f"view:={view}", *self.words)
 
     def furnish(self):
         """What else runs on the screen before RViz."""
@@ -174,29 +173,18 @@ class Picture:
             time.sleep(0.7)
         raise AssertionError("the picture does not come to rest")
 
-    def close(self):
-        for process in reversed(self.processes):
-            process.terminate()
-            process.wait()
+    def __exit__(self, *given):
+        super().__exit__(*given)
         self.display.close()
 
 
-@pytest.fixture(scope="module")
-def node(master):
-    import rospy
-    os.environ.update(master)
-    rospy.init_node("picture_test", disable_signals=True)
-    return master
-
-
 @pytest.fixture(scope="module", params=itertools.product(LEAST, VISIONS), ids="-".join)
-def pictures(request, node, tmp_path_factory):
+def pictures(request, master, tmp_path_factory):
     """A picture with everything, and for each kind of thing one without it."""
     view, vision = request.param
     folder = tmp_path_factory.mktemp(vision)
-    picture = Picture(node, vision, view)
     above_panel = (10, 10, 1910, 640 if vision == "large" else 770)
-    try:
+    with Picture(master, vision, view) as picture:
         time.sleep(5)
         everything = picture.shot(folder / "all.png", above_panel)
         without = {}
@@ -204,8 +192,6 @@ def pictures(request, node, tmp_path_factory):
             picture.show([thing for thing in THINGS if thing not in things])
             time.sleep(1)
             without[kind] = picture.shot(folder / f"without_{kind}.png", above_panel)
-    finally:
-        picture.close()
     return everything, without, view, vision
 
 

@@ -3,17 +3,14 @@ import ast
 import re
 import subprocess
 import sys
-from importlib.machinery import SourceFileLoader
-from pathlib import Path
 
 import pytest
 from PIL import Image
 
 import find_tests
-from rooms_test import PACKAGES as ROOMS, rooms_of
+from rooms_test import PACKAGES as ROOMS, SOURCES, rooms_of
+from sessions import ROOT, script
 
-ROOT = Path(__file__).resolve().parent.parent
-SOURCES = ROOT / "navvi_ws" / "src"
 CODE = "\n".join(path.read_text() for path in SOURCES.rglob("*.[ch]pp"))
 
 
@@ -185,6 +182,6 @@ def test_no_sentence_says_that_a_thing_is_no_other_thing():
 
 @pytest.mark.parametrize("name", ["session", "seen"])
 def test_the_documents_pictures_show_what_is_drawn_today(name):
-    bench = SourceFileLoader("picture_bench", str(SOURCES / "navvi_rviz/bench/picture_bench")).load_module()
+    bench = script(SOURCES / "navvi_rviz/bench/picture_bench")
     assert Image.open(ROOT / f"doc/{name}.png").text.get("look") == bench.look_of_today(), (
         "the drawing code has changed since; \"./navvi bench picture --doc\" makes them anew")

@@ -15,7 +15,8 @@ import time
 import urllib.request
 from collections import namedtuple
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from sessions import Programs, eventually
+
 FOLDER = pathlib.Path(os.environ.get("NAVVI_BAGS", pathlib.Path.home() / ".cache/navvi/bags"))
 TOPICS = ["/scan", "/odom", "/tf", "/tf_static"]  # of a bag of ROS 2
 
@@ -155,10 +156,6 @@ print(json.dumps({"scans": len(scans), "share": len(used & scans) / max(1, len(p
 """
 
 
-def hash_of(path):
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
 def fetch(bag, folder):
     """The file of a bag, of the folder where it is there; None where it cannot be had."""
     file = folder / (bag.name + pathlib.Path(bag.path).suffix)
@@ -171,7 +168,7 @@ def fetch(bag, folder):
             print(f"{bag.name}: {url} cannot be fetched: {problem}", file=sys.stderr)
     if not file.exists():
         return None
-    assert hash_of(file) == bag.sha256, f"{file} has another hash than {bag.sha256}: remove it"
+    assert hashlib.sha256(file.read_bytes()).hexdigest() == bag.sha256, f"{file} has another hash than {bag.sha256}: remove it"
     return converted(file, bag.convert or ros2) if bag.convert or file.suffix != ".bag" else file
 
 
@@ -190,26 +187,18 @@ def converted(file, convert):
 
 def play(bag, file, env, out):
     """What came of it in `robot.launch rehearse:=true`, as COUNT prints it."""
-    python, quiet = ["/usr/bin/python3", "-c"], {"env": env, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    subprocess.run(["rosparam", "set", "use_sim_time", "true"], env=env, check=True)
     named = [word for word in bag.words if word.startswith(("scan:=", "points:="))] or ["scan:=/scan"]
     kind, scans = named[-1].split(":=")[0], named[-1].split(":=")[1].split(",")
-    with open(out / f"{bag.name}.log", "w") as log:
-        launch = subprocess.Popen(["roslaunch", str(ROOT / "launch/robot.launch"), "rehearse:=true", "input:=topic", "speech:=false", "rviz:=false",
-                                   "feedback_parameters:={listener: topic}", f"out:={out}", *bag.words], env=env, stdout=log, stderr=log)
-        frames = subprocess.Popen([*python, FRAMES, *bag.fixed], **quiet)
-        count = subprocess.Popen([*python, COUNT, kind, *scans], env=env, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        try:
-            deadline = time.monotonic() + 60.0
-            while "/perception_node" not in subprocess.run(["rostopic", "info", scans[0]], env=env, capture_output=True, text=True).stdout:
-                assert time.monotonic() < deadline, f"perception_node did not start, see {log.name}"
-            time.sleep(3.0)
-            subprocess.run(["rosbag", "play", "-q", "--clock", "-u", str(SECONDS), "-r", str(bag.pace), str(file)], check=True, timeout=120, **quiet)
-            return json.loads(count.communicate("", timeout=20)[0])
-        finally:
-            for process in (launch, frames, count):
-                process.terminate()
-                process.wait(20)
+    with Programs(env, out / f"{bag.name}.log") as programs:
+        programs.run("rosparam", "set", "use_sim_time", "true").check_returncode()
+        programs.launch("robot.launch", "rehearse:=true", "input:=topic", "speech:=false", "rviz:=false", "feedback_parameters:={listener: topic}", f"out:={out}",
+                        *bag.words)
+        programs.start("/usr/bin/python3", "-c", FRAMES, *bag.fixed)
+        count = programs.start("/usr/bin/python3", "-c", COUNT, kind, *scans, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        assert eventually(lambda: "/perception_node" in programs.run("rostopic", "info", scans[0]).stdout), f"perception_node did not start, see {programs.log}"
+        time.sleep(3.0)
+        programs.run("rosbag", "play", "-q", "--clock", "-u", SECONDS, "-r", bag.pace, file, seconds=120).check_returncode()
+        return json.loads(count.communicate("", timeout=20)[0])
 
 
 def row(bag, found):

@@ -1,8 +1,6 @@
 """./navvi robot check: what it says of robots whose messages are made up here, and of one that runs."""
 import math
-import pathlib
 import subprocess
-import sys
 
 import pytest
 from geometry_msgs.msg import TransformStamped
@@ -12,11 +10,9 @@ from tf2_msgs.msg import TFMessage
 
 import rospy
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-
-from navvi_cli import robot, robot_check  # noqa: E402
-from navvi_cli.arguments import LaunchFile  # noqa: E402
-from sessions import ROOT, Programs  # noqa: E402
+from navvi_cli import robot, robot_check
+from navvi_cli.arguments import LaunchFile
+from sessions import ROOT, Programs
 
 RAYS, NOW = 360, 1000.0
 

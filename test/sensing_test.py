@@ -1,45 +1,36 @@
 """`./navvi run sensing:=robot`: the guide knows only what the robot's sensors show, and the record the truth."""
 import re
-import subprocess
 
 import pytest
 
-from sessions import ROOT
+from sessions import roslaunch
 
-LIVE = ROOT / "launch/live.launch"
+LIVE = ("live.launch", "operator:=simulated", "rviz:=false")
 TOLD = ("octomap_binary", "navvi/obstacles", "navvi/proximity", "navvi/contacts")
-
-
-def arguments_of(node, *words):
-    return subprocess.run(["roslaunch", "--args", node, str(LIVE), "operator:=simulated", "rviz:=false", *words],
-                          capture_output=True, text=True, timeout=60).stdout
 
 
 @pytest.mark.parametrize("node, told", [("nav_node", TOLD), ("feedback_node", TOLD[2:]), ("perception_node", TOLD)])
 def test_who_guides_gets_what_is_seen_and_not_the_truth(node, told):
-    words = arguments_of(node, "sensing:=robot")
+    words = roslaunch(f"--args {node}", *LIVE, "sensing:=robot")
     for topic in told:
         assert re.search(rf"\b{topic}:=/?navvi/seen/\w+", words), words
 
 
 @pytest.mark.parametrize("node", ["sim_node", "trial_node"])
 def test_the_record_is_of_the_truth(node):
-    assert "navvi/seen" not in arguments_of(node, "sensing:=robot")
+    assert "navvi/seen" not in roslaunch(f"--args {node}", *LIVE, "sensing:=robot")
 
 
 def test_the_record_names_what_guided_and_whose_place_of_the_robot_it_is():
     def recorded(*words):
-        found = subprocess.run(["roslaunch", "--dump-params", str(LIVE), "operator:=simulated", "rviz:=false", *words],
-                               capture_output=True, text=True, timeout=60).stdout
-        return re.search(r"^/trial_node/parameters: (.*)$", found, re.M).group(1).strip("'")
+        return re.search(r"^/trial_node/parameters: (.*)$", roslaunch("--dump-params", *LIVE, *words), re.M).group(1).strip("'")
     assert recorded("sensing:=lidar", "parameters:=a/b=1") == "sim/sensing=lidar place=simulator a/b=1"
     assert recorded() == ""
 
 
 def test_the_truth_is_told_where_nothing_else_is_asked_for():
-    assert "navvi/seen" not in arguments_of("nav_node")
-    assert "perception_node" not in subprocess.run(
-        ["roslaunch", "--nodes", str(LIVE), "operator:=simulated", "rviz:=false"], capture_output=True, text=True, timeout=60).stdout
+    assert "navvi/seen" not in roslaunch("--args nav_node", *LIVE)
+    assert "perception_node" not in roslaunch("--nodes", *LIVE)
 
 
 def test_a_session_by_the_robots_own_sensors_reaches_its_goal(session, tmp_path):

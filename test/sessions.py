@@ -1,14 +1,18 @@
 """Sessions for tests, in verbs: begin one, wait until something is true of it, let a person drive, press and hear, end it."""
 import csv
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import re
 import signal
 import subprocess
+import sys
 import threading
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT), *map(str, (ROOT / "navvi_ws/src").glob("*/python"))]  # what all tests import, as conftest.py reads this file first
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 DARK = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}  # without a screen
 
@@ -19,6 +23,15 @@ def eventually(condition, seconds=60):
     while not (found := condition()) and time.monotonic() < deadline:
         time.sleep(0.02)
     return found
+
+
+def script(path):
+    """A program without an ending, as a module."""
+    sys.dont_write_bytecode = True
+    loader = importlib.machinery.SourceFileLoader(path.name, str(path))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(path.name, loader))
+    loader.exec_module(module)
+    return module
 
 
 def rows_of(path):
@@ -33,6 +46,25 @@ def summary(folder):
 
 def navvi(*words, **variables):
     return subprocess.run([ROOT / "navvi", *map(str, words)], capture_output=True, text=True, stdin=subprocess.DEVNULL, timeout=120, env=dict(DARK, **variables))
+
+
+def sourced(*words, setup=ROOT / "navvi_ws/devel/setup.bash", **more):
+    """A program in a fresh shell that knows the workspace, or an install space."""
+    return subprocess.run(["bash", "-c", f"source {setup} && exec \"$@\"", "bash", *map(str, words)],
+                          **{"text": True, "stdin": subprocess.DEVNULL, "capture_output": True, "timeout": 300, **more})
+
+
+def roslaunch(how, *words):
+    """What it prints of a launch file of the repository without starting anything: `--nodes`, `--args NODE` or `--dump-params`."""
+    words = [ROOT / "launch" / word if word.endswith(".launch") else word for word in [*how.split(), *map(str, words)]]
+    done = subprocess.run(["roslaunch", *words], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def heed_ctrl_c():
+    """Tests that run in the background inherit that SIGINT is ignored."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def sound(folder, driver="wave"):
@@ -79,20 +111,20 @@ class Programs:
             process.wait(30)
 
 
-class Session(Programs):
-    """`./navvi run`, by the simulated person and without a picture where the words say nothing else."""
+class Command(Programs):
+    """`./navvi` with these words, what it prints, and the master that it names."""
 
-    def __init__(self, folder, *words, **variables):
+    def __init__(self, *words, **variables):
         super().__init__(DARK | variables)
-        self.folder, self.output, self.uri = folder, [], ""
-        given = {"operator": "simulated", "rviz": "false", "out": folder, **dict(map(str, word.split(":=", 1)) for word in words)}
-        self.process = self.start(ROOT / "navvi", "run", *(f"{name}:={value}" for name, value in given.items()), text=True, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, start_new_session=True)
+        self.output, self.times, self.uri = [], [], ""  # lines, and when each came
+        self.process = self.start(ROOT / "navvi", *words, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                  start_new_session=True, preexec_fn=heed_ctrl_c)
         self.reader = threading.Thread(target=self.read, daemon=True)
         self.reader.start()
 
     def read(self):
         for line in self.process.stdout:
+            self.times.append(time.monotonic())
             self.output.append(line)
             self.uri = "".join(re.findall(r"ROS_MASTER_URI=(http:[\w.:/]+)", line)) or self.uri
 
@@ -107,6 +139,31 @@ class Session(Programs):
         import rosgraph
         self.wait_until(lambda: self.uri and rosgraph.is_master_online(self.uri), 300, "the master answers")
 
+    def wait_until_ended(self, seconds=300):
+        """Returns what was said."""
+        self.process.wait(seconds)
+        self.reader.join(10)
+        return self.text()
+
+    def end(self):
+        """As Ctrl-C does."""
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGINT)
+
+    def __exit__(self, *given):
+        self.end()
+        self.process.wait(30)
+        super().__exit__(*given)
+
+
+class Session(Command):
+    """`./navvi run`, by the simulated person and without a picture where the words say nothing else."""
+
+    def __init__(self, folder, *words, **variables):
+        self.folder = folder
+        given = {"operator": "simulated", "rviz": "false", "out": folder, **dict(map(str, word.split(":=", 1)) for word in words)}
+        super().__init__("run", *(f"{name}:={value}" for name, value in given.items()), **variables)
+
     def wait_until_begun(self):
         self.wait_until(lambda: "has begun" in self.text(), 300, "a trial begins")
 
@@ -119,12 +176,6 @@ class Session(Programs):
         """In the trial's own time."""
         end = self.simulated() + seconds
         self.wait_until(lambda: self.simulated() >= end, 60, f"{seconds} s have been simulated")
-
-    def wait_until_ended(self, seconds=300):
-        """Returns what was said."""
-        self.process.wait(seconds)
-        self.reader.join(10)
-        return self.text()
 
     def of_it(self):
         """Number and command line of each process that was started with this session's master."""
@@ -139,12 +190,3 @@ class Session(Programs):
 
     def kill(self, program, how=signal.SIGKILL):
         os.kill(next(number for number, line in self.of_it().items() if program in line.split(" __name:=")[0]), how)
-
-    def end(self):
-        """As Ctrl-C does."""
-        if self.process.poll() is None:
-            os.killpg(self.process.pid, signal.SIGINT)
-
-    def __exit__(self, *_):
-        self.end()
-        self.process.wait(30)

@@ -1,6 +1,4 @@
 """The panel in RViz on a small screen, with the largest letters."""
-import os
-
 import pytest
 
 from panel_test import BUTTONS, MENU, Desk, eventually, say
@@ -13,15 +11,10 @@ WIDE, HIGH = 1280, 720  # px
 def desk(master):
     import rospy
     from navvi_msgs.msg import Cue
-    os.environ.update(master)
-    rospy.init_node("small_screen_test", disable_signals=True)
-    desk = Desk(master, "large", size=f"{WIDE}x{HIGH}")
-    try:
+    with Desk(master, "large", size=f"{WIDE}x{HIGH}") as desk:
         desk.cues = rospy.Publisher("/navvi/cues", Cue, queue_size=10)
         eventually(desk.cues.get_num_connections, 120)
         yield desk
-    finally:
-        desk.close()
 
 
 @pytest.mark.parametrize("language, begin", [("en", "Start"), ("es", "Empezar")])

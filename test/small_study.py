@@ -1,16 +1,13 @@
 """A small study for the tests, and what drives in place of ./navvi."""
 import functools
-import sys
-from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from sessions import ROOT
+from navvi_study import plan_file, rehearsal, runner, session, study
+
 PACKAGE = ROOT / "navvi_ws/src/navvi_study"
-sys.path.insert(0, str(PACKAGE / "python"))
-
-from navvi_study import plan_file, session, study  # noqa: E402
-
 EXAMPLE = PACKAGE / "studies/example_plan.yaml"
 PLAN = """
 study: small
@@ -40,10 +37,8 @@ def small(folder, *changes):
     return plan_file.load(path)
 
 
-class Driver:
+class Driver(runner.LoopRunner):
     """Instead of ./navvi: each trial's summary has the next result, or none is written."""
-
-    asks = "nobody"
 
     def __init__(self, work, *results):
         self.work, self.results, self.driven = work, list(results), []
@@ -56,15 +51,6 @@ class Driver:
         if result == "killed":
             raise KeyboardInterrupt
         write_summary(folder / f"trial-{len(self.driven)}", result)
-
-    def ask(self, participant, step, items, answered, lock):
-        step.simulate(participant, items, answered)
-
-    def command(self, words, participant, lock):
-        pass
-
-    def close(self, folder):
-        pass
 
 
 def write_summary(folder, result="reached", elapsed=20.0, reason="n/a"):
@@ -83,6 +69,15 @@ def frozen(folder, *changes):
 def begin(kept, *results, driver=Driver, say=lambda line: None):
     """A session whose trials end so."""
     return session.Session(kept, driver(kept, *results), say=say, wait=False)
+
+
+def words(kept, **more):
+    """Of an action of `./navvi study`."""
+    return SimpleNamespace(plan=kept.plan.file, **more)
+
+
+def exclusion(kept, what, reason):
+    return words(kept, what=what, reason=reason, no_replacement=False)
 
 
 @pytest.fixture
@@ -117,9 +112,7 @@ def rest(begun, name="sub-01"):
 
 
 def rehearsed(folder, trials_bench, said):
-    from navvi_study import rehearsal
-    planned = plan_file.load(folder / "small.yaml")
-    return rehearsal.rehearse(planned, trials_bench, "test", said.append)
+    return rehearsal.rehearse(plan_file.load(folder / "small.yaml"), trials_bench, "test", said.append)
 
 
 @pytest.fixture

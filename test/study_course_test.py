@@ -11,11 +11,11 @@ import time
 
 import pytest
 
-from small_study import Driver, ROOT, begin, bench, frozen, rehearsed, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
-from navvi_study import actions, export, journal, measures, overview, runner, session, study, table  # noqa: E402
-from navvi_study.analysis import Analysis  # noqa: E402
-from navvi_study.errors import StudyError  # noqa: E402
-from sessions import eventually  # noqa: E402
+from small_study import Driver, begin, bench, exclusion, frozen, rehearsed, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
+from navvi_study import actions, export, journal, measures, overview, runner, session, study, table
+from navvi_study.analysis import Analysis
+from navvi_study.errors import StudyError
+from sessions import ROOT, eventually
 
 # What comes next.
 
@@ -42,7 +42,7 @@ def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_pat
 def test_a_person_is_not_led_through_a_whole_study_at_once(tmp_path):
     kept = frozen(tmp_path, ("operator: simulated", "operator: pad"))
     with pytest.raises(StudyError, match='"pad"; study run is for simulated'):
-        actions.run(type("Args", (), {"plan": kept.plan.file, "only": None}))
+        actions.run(words(kept, only=None))
 
 
 def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(work):
@@ -93,7 +93,7 @@ def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, 
     assert shown == {"reached": {"full": (6, 1.0), "plain": (6, 0.667)}, "drop_out": {"full": (6, 0.0), "plain": (6, 0.333)},
                      "collisions": {"full": (6, 3.0), "plain": (4, 3.0)}}
     name = next(row["trial"] for row in rows if row["counts"] == "drop-out")
-    actions.exclude(type("Args", (), {"plan": kept.plan.file, "what": f"sub-01/{name}", "reason": "the fire alarm rang", "no_replacement": False}))
+    actions.exclude(exclusion(kept, f"sub-01/{name}", "the fire alarm rang"))
     begun = session.Session(kept, driver, say=said.append, wait=False)
     assert len(rest(begun, "sub-01")) == 1 and driver.driven[-1] == ("sub-01", 11)
 
@@ -101,7 +101,7 @@ def test_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, 
 def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, capsys):
     plan = small(tmp_path)
     actions.TOOLS["version"] = lambda: "test"
-    actions.freeze(type("Args", (), {"plan": plan.file, "reason": None}))
+    actions.freeze(words(study.Study(plan), reason=None))
     printed = capsys.readouterr().out
     for line in overview.broken_off(plan):
         assert line in printed and line in overview.schedule(plan)
@@ -114,7 +114,7 @@ def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, mo
     hall = "<sdf version='1.6'><world name='w'><include><uri>model://ground_plane</uri></include>{}</world></sdf>"
     (tmp_path / "hall.sdf").write_text(hall.format(""))
     plan = small(tmp_path, ("a: {world: easy", "a: {world: hall.sdf"))
-    args = type("Args", (), {"plan": plan.file, "reason": None, "no_worlds": False, "pictures": False})
+    args = words(study.Study(plan), reason=None, no_worlds=False, pictures=False)
     for action in actions.check, actions.freeze:
         with pytest.raises(StudyError) as problem:
             action(args)
@@ -164,7 +164,7 @@ def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):
 def test_exclusions_are_rows_and_nothing_is_deleted(work, capsys):
     rest(work())
     before = work.study.journal.path.read_bytes()
-    args = type("Args", (), {"plan": work.study.plan.file, "what": "sub-01/trial-1", "reason": "the phone rang", "no_replacement": False})
+    args = exclusion(work.study, "sub-01/trial-1", "the phone rang")
     actions.exclude(args)
     assert work.study.journal.path.read_bytes().startswith(before)
     with pytest.raises(StudyError, match="excluded already"):
@@ -268,7 +268,7 @@ while true; do sleep 0.1; done
     with pytest.raises(StudyError, match=rf"running still: process .*{orphan} \(navvi\).*\./navvi study stop {work.study.plan.file} sub-01"):
         work().next("sub-01")
     begun = time.monotonic()
-    args = type("Args", (), {"plan": work.study.plan.file, "participant": "sub-01"})
+    args = words(work.study, participant="sub-01")
     actions.stop(args)
     assert time.monotonic() - begun < 5 and (tmp_path / "ended").exists() and f"{orphan} (navvi)" in capsys.readouterr().out
     child.join()

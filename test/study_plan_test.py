@@ -6,9 +6,9 @@ import itertools
 import pytest
 
 from small_study import EXAMPLE, PACKAGE, begin, frozen, rest, small
-from navvi_study import checked, design, overview, plan_file, preregistration, progress, questionnaire, report, runner, schedule, steps, study, worlds  # noqa: E402
-from navvi_study.errors import StudyError  # noqa: E402
-from navvi_study.steps.step import Step  # noqa: E402
+from navvi_study import checked, design, overview, plan_file, preregistration, progress, questionnaire, report, runner, schedule, steps, study, worlds
+from navvi_study.errors import StudyError
+from navvi_study.steps.step import Step
 
 # The design.
 

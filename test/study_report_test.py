@@ -2,6 +2,7 @@
 import html.parser
 import re
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -9,8 +10,8 @@ import pytest
 import scipy.stats
 
 from small_study import Driver, begin, frozen, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
-from navvi_study import analysis, figures, report, study, table, ways  # noqa: E402
-from navvi_study.analysis import MODELS, Analysis, Contrast  # noqa: E402
+from navvi_study import analysis, figures, report, study, table, ways
+from navvi_study.analysis import MODELS, Analysis, Contrast
 
 
 class Page(html.parser.HTMLParser):
@@ -157,7 +158,7 @@ def test_the_flow_of_participants_and_trials_is_that_of_a_study_worked_out_by_ha
 ])
 def test_a_difference_is_told_in_words_without_a_sign(measure, differences, low, high, words):
     told = Analysis.__new__(Analysis)
-    told.plan = type("Plan", (), {"exposure": "trial"})
+    told.plan = SimpleNamespace(exposure="trial")
     assert report.sentence(told, Contrast(measure, "a", "b", pd.Series(differences), sum(differences) / len(differences), low, high)) == words
 
 
@@ -282,28 +283,16 @@ def test_where_nothing_is_counted_in_one_condition_ranks_are_compared(kind):
     assert 0.0 < one.p < 0.05 and one.model == "Wilcoxon signed ranks" and "no ratio" in one.note
 
 
-def test_a_figure_shows_all_values_of_all_groups():
-
-    class Drawn:
-        @staticmethod
-        def by_condition(name):
-            return [{"group": group, "condition": "full", "mean": value, "low": None, "high": None} for group, value in (("a", 10.0), ("b", 90.0))]
-
-        @staticmethod
-        def values(name):
-            return pd.DataFrame([{"group": group, "participant": group, "condition": "full", "value": value, "exposure": 1.0}
-                                 for group, value in (("a", 10.0), ("b", 90.0))])
-
-        @staticmethod
-        def unit(name):
-            return "s"
+def test_a_figure_shows_all_values_of_all_groups(monkeypatch):
+    groups = {"a": 10.0, "b": 90.0}
+    drawn = SimpleNamespace(
+        by_condition=lambda name: [{"group": group, "condition": "full", "mean": value, "low": None, "high": None} for group, value in groups.items()],
+        values=lambda name: pd.DataFrame([{"group": group, "participant": group, "condition": "full", "value": value, "exposure": 1.0}
+                                          for group, value in groups.items()]),
+        unit=lambda name: "s")
     limits = []
-    close = figures.plt.close
-    figures.plt.close = lambda drawing: (limits.extend(panel.get_ylim() for panel in drawing.axes), close(drawing))
-    try:
-        figures.by_condition(Drawn, "time")
-    finally:
-        figures.plt.close = close
+    monkeypatch.setattr(figures.plt, "close", lambda drawing: limits.extend(panel.get_ylim() for panel in drawing.axes))
+    figures.by_condition(drawn, "time")
     assert all(low <= 0.0 and high >= 90.0 for low, high in limits) and len(limits) == 2
 
 

@@ -8,10 +8,10 @@ import signal
 
 import pytest
 
-from small_study import Driver, EXAMPLE, begin, frozen, rest, small, trial_of, work, write_record  # noqa: F401
-from navvi_study import actions, export, journal, overview, progress, questionnaire, record, runner, schedule, study, table, verify  # noqa: E402
-from navvi_study.errors import StudyError  # noqa: E402
-from navvi_study.steps import probe  # noqa: E402
+from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, work, write_record  # noqa: F401
+from navvi_study import actions, export, journal, overview, progress, questionnaire, record, runner, schedule, study, table, verify
+from navvi_study.errors import StudyError
+from navvi_study.steps import probe
 
 
 FIGURES = [{"name": "elapsed_s", "unit": "s", "meaning": "simulated time from start to goal", "source": "the paper"}]
@@ -202,7 +202,7 @@ def test_D1_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_o
 
 def test_a_reason_that_is_not_utf_8_leaves_the_journal_whole(work):
     rest(work())
-    actions.exclude(type("Args", (), {"plan": work.study.plan.file, "what": "sub-01", "reason": "caf\udce9", "no_replacement": False}))
+    actions.exclude(exclusion(work.study, "sub-01", "caf\udce9"))
     assert work.study.journal.rows()[-1]["reason"] == "caf?" == journal.Journal(work.study.journal.path).rows()[-1]["reason"]
 
 

@@ -1,10 +1,8 @@
 """`./navvi watch`: a session in plain lines, on a terminal and through speech-dispatcher."""
-import importlib.machinery
-import importlib.util
+import itertools
 import os
 import pty
 import re
-import signal
 import subprocess
 import sys
 import time
@@ -14,13 +12,8 @@ import rosbag
 import rospy
 from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent, TrialState
 
-from sessions import ROOT, eventually
-
-SCRIPT = ROOT / "navvi_ws/src/navvi_study/python/navvi_study/watch.py"
-loader = importlib.machinery.SourceFileLoader("watch_session", str(SCRIPT))
-watch = importlib.util.module_from_spec(importlib.util.spec_from_loader("watch_session", loader))
-loader.exec_module(watch)
-
+from sessions import DARK, ROOT, Command, Programs, eventually
+from navvi_study import watch
 
 pytestmark = pytest.mark.accessibility
 
@@ -93,16 +86,17 @@ def trial(tmp_path):
     return tmp_path
 
 
-def navvi_watch(*words, stdout=subprocess.PIPE, **more):
-    return subprocess.Popen([str(ROOT / "navvi"), "watch", *map(str, words)], stdout=stdout, stderr=subprocess.STDOUT, text=True,
-                            stdin=subprocess.DEVNULL, start_new_session=True, env=dict(os.environ, **more))
+def watched(*words, **variables):
+    """Exit code and text."""
+    watching = Command("watch", *words, **variables)
+    text = watching.wait_until_ended()
+    return watching.process.returncode, text
 
 
 def test_a_recorded_trial_is_told_in_lines_of_which_each_says_something_new(trial):
-    process = navvi_watch(trial, "pace:=0")
-    lines = [line for line in process.communicate(timeout=300)[0].splitlines()
-             if not line.startswith(("navvi: building", "navvi: waiting for another build"))]
-    assert process.returncode == 0
+    code, text = watched(trial, "pace:=0")
+    lines = [line for line in text.splitlines() if not line.startswith(("navvi: building", "navvi: waiting for another build"))]
+    assert code == 0
     assert lines == [*LINES, "The trial's record ends here."]
     assert all(re.fullmatch(r"[ -~]+", line) for line in lines)
 
@@ -114,43 +108,34 @@ def test_a_recorded_trial_is_told_in_lines_of_which_each_says_something_new(tria
 def test_R2_a_damaged_bag_ends_in_a_sentence(damage, trial):
     bag = trial / "trial.bag"
     bag.write_bytes(damage(bag.read_bytes()))
-    result = subprocess.run([sys.executable, str(SCRIPT), "0", "false", str(trial)], capture_output=True, text=True, timeout=60)
+    result = subprocess.run([sys.executable, watch.__file__, "0", "false", str(trial)], capture_output=True, text=True, timeout=60)
     assert result.returncode == 2, result.stdout + result.stderr
     assert len(result.stderr.splitlines()) == 1 and f"{bag} is damaged and cannot be read" in result.stderr, result.stderr
 
 
+def lines_of(*words):
+    """(s, text) of each line that is not the command's own."""
+    watching = Command("watch", *words)
+    watching.wait_until_ended()
+    return [(at, line) for at, line in zip(watching.times, watching.output) if not line.startswith("navvi:")]
+
+
 def test_no_line_comes_before_the_last_one_can_have_been_read(trial):
-    process, times = navvi_watch(trial, "pace:=600"), []
-    for line in process.stdout:
-        if not line.startswith("navvi:"):
-            times.append((time.monotonic(), line))
+    times = lines_of(trial, "pace:=600")
     for (before, line), (after, _) in zip(times, times[1:-1]):
         assert after - before > 0.9 * max(0.7, 0.1 * len(line.split())), line
 
 
-def times_of(lines, most):
-    times = []
-    for line in lines:
-        times += [] if line.startswith("navvi:") else [time.monotonic()]
-        if len(times) == most:
-            break
-    return times
-
-
 def test_a_record_comes_at_once_where_no_terminal_reads_it_and_by_and_by_in_one(trial):
-    process = navvi_watch(trial)
-    times = times_of(process.stdout, len(LINES))
-    assert process.wait(20) == 0 and len(times) == len(LINES)
+    times = [at for at, _ in lines_of(trial)][:len(LINES)]
+    assert len(times) == len(LINES)
     assert times[-1] - times[0] < 0.1 * 0.7 * len(LINES), "no line comes sooner than 0.7 s after the last one where they are paced"
 
     terminal, its_end = pty.openpty()
-    process = navvi_watch(trial, stdout=its_end)
-    try:
-        times = times_of(os.fdopen(terminal), 3)
-    finally:
+    with Programs(DARK) as programs, os.fdopen(terminal) as lines:
+        programs.start(ROOT / "navvi", "watch", trial, stdout=its_end, stderr=its_end)
+        times = [time.monotonic() for _ in itertools.islice((line for line in lines if not line.startswith("navvi:")), 3)]
         os.close(its_end)
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
     assert times[-1] - times[0] > 0.9 * 2 * 0.7
 
 
@@ -184,38 +169,33 @@ def spoken(tmp_path):
     (home / "modules/file.conf").write_text(
         f"GenericExecuteSynth \"printf '%s ' \\'$DATA\\' >> {home}/spoken; date +%s.%N >> {home}/times; sleep 0.5\"\n"
         'GenericLanguage "en" "en" "utf-8"\nAddVoice "en" "MALE1" "en"\n')
-    server = subprocess.Popen(["speech-dispatcher", "-s", "-c", "unix_socket", "-S", home / "socket", "-C", home, "-L", home,
-                               "-P", home / "pid", "-t", "0"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    assert eventually((home / "socket").exists, 10), "speech-dispatcher did not start"
-    yield home
-    server.terminate()
-    server.wait()
+    with Programs(None) as programs:
+        programs.start("speech-dispatcher", "-s", "-c", "unix_socket", "-S", home / "socket", "-C", home, "-L", home, "-P", home / "pid", "-t", "0")
+        assert eventually((home / "socket").exists, 10), "speech-dispatcher did not start"
+        yield home
 
 
 def test_each_line_is_spoken_and_the_next_waits_until_it_was(trial, spoken):
-    process = navvi_watch(trial, "pace:=0", "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{spoken}/socket")
-    text = process.communicate(timeout=300)[0]
-    assert process.returncode == 0, text
+    code, text = watched(trial, "pace:=0", "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{spoken}/socket")
+    assert code == 0, text
     assert " ".join((spoken / "spoken").read_text().split()) == " ".join(LINES)
     times = [float(line) for line in (spoken / "times").read_text().split()]
     assert all(after - before > 0.45 for before, after in zip(times, times[1:]))
 
 
 def test_without_speech_dispatcher_that_is_said(trial, tmp_path):
-    process = navvi_watch(trial, "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{tmp_path}/none", SPEECHD_CMD="/nonexistent")
-    text = process.communicate(timeout=300)[0]
-    assert process.returncode == 2 and "speech-dispatcher cannot be used" in text and "speech:=false" in text
+    code, text = watched(trial, "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{tmp_path}/none", SPEECHD_CMD="/nonexistent")
+    assert code == 2 and "speech-dispatcher cannot be used" in text and "speech:=false" in text
 
 
 def test_a_running_session_is_found_and_told_to_its_end(session, tmp_path):
     # Where watch looks for sessions; another may run beside the test.
     session("world:=training", "limit:=25", TMPDIR=str(tmp_path)).wait_until_begun()
-    text = navvi_watch(TMPDIR=str(tmp_path)).communicate(timeout=300)[0]
+    text = watched(TMPDIR=str(tmp_path))[1]
     assert "Follow the path" in text and "Said: " in text, text
     assert "The trial has ended: timeout" in text and text.endswith("The session has ended.\n"), text
 
 
 def test_where_no_session_runs_that_is_said(tmp_path):
-    process = navvi_watch(TMPDIR=str(tmp_path))
-    text = process.communicate(timeout=300)[0]
-    assert process.returncode == 2 and "no session runs on this machine" in text
+    code, text = watched(TMPDIR=str(tmp_path))
+    assert code == 2 and "no session runs on this machine" in text
