@@ -17,7 +17,10 @@ def lesson_arguments(parser, person):
     add_words(parser, "lesson.launch", f"person:=NAME: {person}", "out:=FOLDER: keeps the log there, and what was measured.", "feedback/NAME:=VALUE: any parameter of feedback_node.", choices=CHOICES)
 
 
-def give(lesson, given):
+def give(lesson, given, needed="", sentence=""):
+    """\\param needed  begin of a word without which the sentence refuses it"""
+    if needed and not any(word.startswith(needed) for word in given):
+        fail(sentence, 2)
     launch_file = LaunchFile("lesson.launch")
     out = Words([word for word in given if word.startswith("out:=")], ["out"]).get("out")
     out = Path(os.path.abspath(out)) if out else None

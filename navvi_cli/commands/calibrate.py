@@ -19,7 +19,6 @@ Example
 ./navvi calibrate person:=anna
 """
 from navvi_cli.lessons import give, lesson_arguments
-from navvi_cli.say import fail
 
 
 def arguments(parser):
@@ -27,6 +26,4 @@ def arguments(parser):
 
 
 def run(args):
-    if not any(word.startswith("person:=") for word in args.words):
-        fail("whose settings are these? person:=NAME is needed, such as person:=anna.", 2)
-    give("calibrate", args.words)
+    give("calibrate", args.words, "person:=", "whose settings are these? person:=NAME is needed, such as person:=anna.")

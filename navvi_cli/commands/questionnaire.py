@@ -14,7 +14,6 @@ Example
 ./navvi questionnaire feedback/questions:=asked.yaml feedback/record:=told.csv
 """
 from navvi_cli.lessons import give, lesson_arguments
-from navvi_cli.say import fail
 
 
 def arguments(parser):
@@ -22,6 +21,5 @@ def arguments(parser):
 
 
 def run(args):
-    if not any(word.startswith("feedback/questions:=") for word in args.words):
-        fail("which questions? feedback/questions:=FILE is needed: a YAML list of items, each with name, ask, values and spoken, or name, ask and point: true.", 2)
-    give("questionnaire", args.words)
+    give("questionnaire", args.words, "feedback/questions:=",
+         "which questions? feedback/questions:=FILE is needed: a YAML list of items, each with name, ask, values and spoken, or name, ask and point: true.")
