@@ -1,9 +1,7 @@
 #include "record/driven.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <navvi_types/angles.hpp>
 #include <navvi_types/cue_kind.hpp>
 #include <navvi_types/signal.hpp>
@@ -74,11 +72,8 @@ class Turning {
 std::string about(const TrackRow& row, const std::string& spoken) {
   std::string text = row.state.text();
   if (const std::string by = row.blocked_by.text(); !by.empty()) text += " by " + by;
-  if (row.gap < kNearby) {
-    std::array<char, 32> gap{};
-    std::snprintf(gap.data(), gap.size(), " at %.2f m", static_cast<double>(row.gap));
-    text += ", " + row.nearest.text() + gap.data();
-  }
+  if (row.gap < kNearby)
+    text += ", " + row.nearest.text() + " at " + fixed(static_cast<double>(row.gap), 2) + " m";
   return text + ", \"" + spoken + "\"";
 }
 

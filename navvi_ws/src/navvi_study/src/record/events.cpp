@@ -1,8 +1,6 @@
 #include "record/events.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <numeric>
 
 #include "record/row.hpp"
@@ -11,9 +9,7 @@ namespace navvi_study::record {
 namespace {
 
 std::string seconds(std::int64_t from, std::int64_t to) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.3f", static_cast<double>(to - from) * 1e-9);
-  return text.data();
+  return fixed(static_cast<double>(to - from) * 1e-9, 3);
 }
 
 /// What the paper's Table III calls it; the type itself for what the paper does not have.

@@ -1,9 +1,8 @@
 #include "record/figures.hpp"
 
 #include <algorithm>
-#include <array>
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <map>
 #include <navvi_types/angles.hpp>
@@ -25,10 +24,7 @@ constexpr double kTold = 2.0;      // s
 constexpr double kLongAgo = 10.0;  // s; a word before that was no warning
 
 std::string text_of(double value, int decimals = 3) {
-  if (!std::isfinite(value)) return kNothing;
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+  return std::isfinite(value) ? fixed(value, decimals) : kNothing;
 }
 
 std::string text_of(const Row* row, const std::string& field) {
@@ -41,12 +37,17 @@ double number_of(const Row* row, const std::string& field) {
 
 const Row* start_of(const Trial& trial) { return trial.first("TRIAL_START"); }
 
+/// The first row between these that passes the test.
+template <typename Iterator, typename Test>
+const Row* found(Iterator begin, Iterator end, const Test& test) {
+  const auto row = std::find_if(begin, end, test);
+  return row == end ? nullptr : &*row;
+}
+
 /// The last row with sums of the trial so far.
 const Row* sums_of(const Trial& trial) {
-  const auto row = std::find_if(trial.rows.rbegin(), trial.rows.rend(), [](const Row& one) {
-    return one.fields.find("path_length").has_value();
-  });
-  return row == trial.rows.rend() ? nullptr : &*row;
+  return found(trial.rows.rbegin(), trial.rows.rend(),
+               [](const Row& one) { return one.fields.find("path_length").has_value(); });
 }
 
 std::string count_of(const Trial& trial, const std::string& type, const std::string& kind) {
@@ -173,14 +174,17 @@ std::string contacts_per_100m(const Trial& trial) {
   if (!counts_contacts(trial) || driven == 0.0) return kNothing;
   return text_of(100.0 * std::stod(count_of(trial, "COLLISION", "")) / driven);
 }
+std::string listed(const std::vector<std::string>& words) {
+  return words.empty() ? "-" : boost::algorithm::join(words, " ");
+}
 std::string hits(const Trial& trial) {
   std::map<std::string, int> counts;
   for (const Row& row : trial.rows)
     if (row.type == "COLLISION") ++counts[row.fields.get("class", row.fields.get("kind"))];
-  std::string text;
+  std::vector<std::string> words;
   for (const auto& [thing_class, count] : counts)
-    text += (text.empty() ? "" : " ") + thing_class + " " + std::to_string(count);
-  return !counts_contacts(trial) ? "unknown" : text.empty() ? "-" : text;
+    words.push_back(thing_class + " " + std::to_string(count));
+  return counts_contacts(trial) ? listed(words) : "unknown";
 }
 Of near(const char* kind) {
   return [=](const Trial& trial) { return count_of(trial, "PROXIMITY_ENTER", kind); };
@@ -232,10 +236,10 @@ std::string late_warnings(const Trial& trial) {
   }));
 }
 std::string warned(const Trial& trial) {
-  std::string text;
+  std::vector<std::string> words;
   for (const Warning& one : warnings_of(trial))
-    text += (text.empty() ? "" : " ") + text_of(one.felt, 1) + "/" + text_of(one.told, 1);
-  return text.empty() ? "-" : text;
+    words.push_back(text_of(one.felt, 1) + "/" + text_of(one.told, 1));
+  return listed(words);
 }
 
 // What was said, and how the hands moved.
@@ -422,15 +426,11 @@ std::vector<Figure> all_figures() {
 }  // namespace
 
 const Row* Trial::first(const std::string& type) const {
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& one) { return one.type == type; });
-  return row == rows.end() ? nullptr : &*row;
+  return found(rows.begin(), rows.end(), [&](const Row& one) { return one.type == type; });
 }
 
 const Row* Trial::last(const std::string& type) const {
-  const auto row =
-      std::find_if(rows.rbegin(), rows.rend(), [&](const Row& one) { return one.type == type; });
-  return row == rows.rend() ? nullptr : &*row;
+  return found(rows.rbegin(), rows.rend(), [&](const Row& one) { return one.type == type; });
 }
 
 double Trial::begin() const {
@@ -492,8 +492,7 @@ std::optional<Summary> parse_summary(const std::string& text) {
   if (!names || !cells || names->size() != cells->size()) return std::nullopt;
   Summary summary;
   for (std::size_t i = 0; i < names->size(); ++i) summary.emplace_back((*names)[i], (*cells)[i]);
-  if (summary_csv(summary) != text) return std::nullopt;
-  return summary;
+  return summary_csv(summary) == text ? std::optional(summary) : std::nullopt;
 }
 
 std::string cell_of(const Summary& summary, const std::string& name) {

@@ -94,6 +94,12 @@ std::string hex8(std::uint32_t value) {
 
 }  // namespace
 
+std::string fixed(double value, int decimals) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) line += (i == 0 ? "" : ",") + quoted(cells[i]);
@@ -127,9 +133,7 @@ Fields& Fields::set(const std::string& name, const std::string& value) {
 
 Fields& Fields::set(const std::string& name, double value, int decimals) {
   if (!std::isfinite(value) || std::abs(value) > 1e15) return set(name, "n/a");
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return set(name, std::string(text.data()));
+  return set(name, fixed(value, decimals));
 }
 
 Fields& Fields::set(const std::string& name, std::uint64_t value) {
@@ -137,9 +141,8 @@ Fields& Fields::set(const std::string& name, std::uint64_t value) {
 }
 
 std::optional<std::string> Fields::find(const std::string& name) const {
-  for (const auto& pair : pairs_) {
+  for (const auto& pair : pairs_)
     if (pair.first == name) return pair.second;
-  }
   return std::nullopt;
 }
 

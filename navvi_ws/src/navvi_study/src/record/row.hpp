@@ -9,6 +9,9 @@
 
 namespace navvi_study::record {
 
+/// With so many digits after the point.
+[[nodiscard]] std::string fixed(double value, int decimals);
+
 /// A line with its end.
 [[nodiscard]] std::string csv_line(const std::vector<std::string>& cells);
 /// The cells of one line, without its end; nullopt where quotes are not in order.

@@ -66,14 +66,13 @@ navvi_files::Problem write_results(const fs::path& folder, const Trial& trial,
 namespace {
 
 /// Whether the summary is there, and has the result of the trial and the state of its bag.
-bool is_summed_up(const fs::path& folder, const std::vector<Row>& rows) {
+bool is_summed_up(const fs::path& folder, const Trial& trial) {
   const auto text = navvi_files::read_file(folder / "summary.csv");
   const Summary summary = parse_summary(text.value_or("")).value_or(Summary());
   const auto has = [&](const std::string& type, const std::string& field, const char* column) {
-    const auto row = std::find_if(rows.rbegin(), rows.rend(),
-                                  [&](const Row& one) { return one.type == type; });
+    const Row* row = trial.last(type);
     const std::string cell = cell_of(summary, column);
-    return row == rows.rend() || cell.empty() || cell == "invalid" || cell == row->fields.get(field);
+    return row == nullptr || cell.empty() || cell == "invalid" || cell == row->fields.get(field);
   };
   return text && has("TRIAL_END", "result", "result") && has("BAG_CLOSED", "state", "bag");
 }
@@ -97,7 +96,7 @@ std::vector<std::string> recover_trials(const fs::path& out,
     if (recovery.in_use) continue;
     std::string said = recovery.problem.empty() ? recovery.report : recovery.problem;
     if (recovery.problem.empty() && !recovery.rows.empty() &&
-        (recovery.changed || !is_summed_up(folder, recovery.rows))) {
+        (recovery.changed || !is_summed_up(folder, {recovery.rows}))) {
       if (const auto problem = write_results(folder, {recovery.rows, read_track(folder)}, calls))
         said += *problem;
       if (said.empty()) said = "Its summary lacked the journal's last rows and has them now.";

@@ -11,18 +11,13 @@
 #include <thread>
 
 namespace navvi_study::trial {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr double kStart = 60.0;  // s, for the recorder to listen: it asks the master for each topic in turn, which may be far
 constexpr double kSettle = 0.5;  // s, for links to come up before the first event
 constexpr double kStill = 10.0;  // s, without growth; a compressed bag grows by whole chunks
 constexpr double kHalted = 2.0;  // s, in which a recorder may be stopped by a signal
-
-}  // namespace
-
-namespace fs = std::filesystem;
-namespace {
-
 constexpr std::uintmax_t kEmptyBag = 4117;  // bytes, a bag's header alone
 
 }  // namespace

@@ -4,12 +4,19 @@
 #include <link.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <cstring>
 #include <fstream>
 #include <vector>
 
 namespace navvi_study::trial {
 namespace {
+
+#ifdef __clang__
+constexpr const char* kCompiler = "Clang " __clang_version__;
+#else
+constexpr const char* kCompiler = "GCC " __VERSION__;
+#endif
 
 /// The build ID in the notes of a segment, as bytes; empty: none
 std::string build_id_in(const char* notes, std::size_t size, std::size_t align) {
@@ -74,16 +81,6 @@ std::string processor() {
   return "n/a";
 }
 
-std::string compiler() {
-#ifdef __clang__
-  return "Clang " __clang_version__;
-#else
-  return "GCC " __VERSION__;
-#endif
-}
-
-std::string bullet() { return BULLET_VERSION; }
-
 std::optional<std::string> build_ids() {
   std::string ids;
   if (::dl_iterate_phdr(add_build_id, &ids) != 0) return std::nullopt;
@@ -99,13 +96,11 @@ void add_conditions(record::Fields& fields, const TrialNodeConfig& config,
   fields.set("operator", config.operator_kind).set("participant", config.participant);
   fields.set("profile", config.profile).set("version", config.version);
   fields.set("parameters", config.parameters.empty() ? "none" : config.parameters);
-  std::string words;
-  for (const auto& [name, value] : settings)
-    words += (words.empty() ? "" : " ") + name + "=" + value;
-  fields.set("settings", words);
+  std::vector<std::string> words, stuck;
+  for (const auto& [name, value] : settings) words.push_back(name + "=" + value);
+  fields.set("settings", boost::algorithm::join(words, " "));
   if (!phrases.empty()) fields.set("phrases", phrases);
-  fields.set("cpu", processor()).set("compiler", compiler());
-  fields.set("bullet", bullet());
+  fields.set("cpu", processor()).set("compiler", kCompiler).set("bullet", BULLET_VERSION);
   set_study(fields, config.study);
   fields.set("goal_x", start.goal.x(), 6).set("goal_y", start.goal.y(), 6);
   fields.set("limit", config.limit);
@@ -117,10 +112,8 @@ void add_conditions(record::Fields& fields, const TrialNodeConfig& config,
   fields.set("obstacle_range", monitor.obstacle_range).set("shelf_range", monitor.shelf_range);
   fields.set("leave_margin", monitor.leave_margin).set("leave_time", monitor.leave_time);
   fields.set("center_range", monitor.center_range).set("arrival_range", monitor.arrival_range);
-  std::string stuck;
-  for (const CueKind kind : start.stuck)
-    stuck += (stuck.empty() ? "" : ", ") + std::string(to_string(kind));
-  fields.set("stuck_cues", stuck);
+  for (const CueKind kind : start.stuck) stuck.emplace_back(to_string(kind));
+  fields.set("stuck_cues", boost::algorithm::join(stuck, ", "));
 }
 
 }  // namespace navvi_study::trial

@@ -1,6 +1,7 @@
 #include "trial/trial_flow.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace navvi_study::trial {
 namespace {
@@ -40,17 +41,15 @@ std::optional<std::int64_t> TrialFlow::deadline() const {
 std::optional<Ending> TrialFlow::watch(const Signs& signs) {
   clock_ = std::max(clock_, signs.now);
   if (signs.disk_full) return Ending{"invalid", "disk_full", signs.latest};
-  if (signs.world_restarted) return Ending{"aborted", "simulator_restarted", signs.latest};
-  if (signs.clock_jumped || signs.now + kTimeBack < clock_)
-    return Ending{"aborted", "time_went_back", signs.latest};
-  if (signs.odometry_silence > kSimulatorLost)
-    return Ending{"aborted", "simulator_lost", signs.latest};
-  if (signs.guidance_silence > kGuidanceLost)
-    return Ending{"aborted", "guidance_lost", signs.latest};
-  if (signs.feedback_silence > kFeedbackLost)
-    return Ending{"aborted", "feedback_lost", signs.latest};
-  if (signs.operator_silence > kOperatorLost)
-    return Ending{"aborted", "operator_lost", signs.latest};
+  const std::pair<bool, const char*> losses[] = {
+      {signs.world_restarted, "simulator_restarted"},
+      {signs.clock_jumped || signs.now + kTimeBack < clock_, "time_went_back"},
+      {signs.odometry_silence > kSimulatorLost, "simulator_lost"},
+      {signs.guidance_silence > kGuidanceLost, "guidance_lost"},
+      {signs.feedback_silence > kFeedbackLost, "feedback_lost"},
+      {signs.operator_silence > kOperatorLost, "operator_lost"}};
+  for (const auto& [lost, reason] : losses)
+    if (lost) return Ending{"aborted", reason, signs.latest};
   const auto end = deadline();
   if (end && signs.now >= *end) return Ending{"timeout", "limit", *end};
   return std::nullopt;

@@ -1,10 +1,9 @@
 #include "trial/trial_keeper.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
 #include <cmath>
-#include <iomanip>
 #include <navvi_feedback/menu/places_file.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -22,15 +21,11 @@ constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaun
 constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
 
 std::string list_of(const std::vector<std::string>& words) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
+  return boost::algorithm::join(words, ", ");
 }
 
 std::string place_of(const Eigen::Vector2d& point) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(2) << point.x() << ", " << point.y();
-  return text.str();
+  return record::fixed(point.x(), 2) + ", " + record::fixed(point.y(), 2);
 }
 
 }  // namespace

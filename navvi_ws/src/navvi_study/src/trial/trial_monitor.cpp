@@ -69,26 +69,19 @@ void TrialMonitor::start(const TrialStart& start) {
   start_ = start;
   end_.reset();
   tally_ = Tally();
-  driven_.next_progress = start.stamp;
-  hits_.contact_seq = start.contact_seq;
-  hits_.shelf_count = start.shelf_count;
-  hits_.obstacle_count = start.obstacle_count;
+  hits_ = {start.contact_seq, start.shelf_count, start.obstacle_count};
   inside_.clear();
+  driven_.next_progress = start.stamp;
   driven_.odometry.reset();
   driven_.near.reset();
-  guided_.before = guided_.guidance;
-  guided_.guidance.reset();
-  guided_.plans.reset();
-  guided_.reroutes = 0;
+  const auto before = guided_.guidance;
+  guided_ = {};
+  guided_.before = before;
   playing_.clear();
   latencies_.clear();
   links_.clear();
   stuck_cues_.clear();
-  goal_.taken = false;
-  guided_.state.reset();
-  goal_.arrival.reset();
-  goal_.arrived_elsewhere = false;
-  goal_.refused.reset();
+  goal_ = {};
   world_restarted_ = false;
   clock_jumped_ = false;
 }
@@ -96,10 +89,7 @@ void TrialMonitor::start(const TrialStart& start) {
 Event TrialMonitor::change_goal(const Eigen::Vector2d& goal, std::int64_t stamp) {
   start_->goal = goal;
   guided_.before = guided_.guidance ? guided_.guidance : guided_.before;
-  goal_.taken = false;
-  goal_.arrival.reset();
-  goal_.arrived_elsewhere = false;
-  goal_.refused.reset();
+  goal_ = {};
   return {"GOAL_SET", place().set("goal_x", goal.x()).set("goal_y", goal.y()), stamp, true};
 }
 
@@ -212,17 +202,13 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
         obstacles - std::min(obstacles, hits_.obstacle_count + (shelf ? 0 : 1));
     const std::uint64_t missed = contact.seq - hits_.contact_seq - 1;
     tally_.missed_messages += missed;
-    for (std::uint64_t i = 0; i < std::min(missed_shelf, missed); ++i) {
+    for (std::uint64_t i = 0; i < std::min(missed_shelf, missed); ++i)
       collision(nullptr, true, contact.stamp, events);
-    }
-    for (std::uint64_t i = 0; i < std::min(missed_obstacle, missed); ++i) {
+    for (std::uint64_t i = 0; i < std::min(missed_obstacle, missed); ++i)
       collision(nullptr, false, contact.stamp, events);
-    }
     collision(&contact, shelf, contact.stamp, events);
   }
-  hits_.contact_seq = contact.seq;
-  hits_.shelf_count = shelves;
-  hits_.obstacle_count = obstacles;
+  hits_ = {contact.seq, shelves, obstacles};
   return events;
 }
 
@@ -241,8 +227,8 @@ std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
     fields.set("kind", kind_of(thing.thing_class));
     fields.set("id", std::uint64_t{thing.id}).set("class", to_string(thing.thing_class));
     fields.set("thing", thing.name).set("gap", thing.gap).set("zone", zone(thing.nearest.y()));
-    fields.set("x", driven_.odometry ? driven_.odometry->pose.position.x() : NAN);
-    fields.set("y", driven_.odometry ? driven_.odometry->pose.position.y() : NAN);
+    const auto at = driven_.odometry ? driven_.odometry->pose.position : Eigen::Vector2d(NAN, NAN);
+    fields.set("x", at.x()).set("y", at.y());
     events.push_back({type, fields, proximity.stamp, true});
   };
   for (const auto& thing : proximity.things) {
