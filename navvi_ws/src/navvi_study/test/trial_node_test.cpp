@@ -3,16 +3,7 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <gtest/gtest.h>
-#include <nav_msgs/Odometry.h>
-#include <navvi_msgs/Contact.h>
-#include <navvi_msgs/Cue.h>
-#include <navvi_msgs/DriveState.h>
-#include <navvi_msgs/Guidance.h>
-#include <navvi_msgs/Proximity.h>
-#include <navvi_msgs/Scenario.h>
-#include <navvi_msgs/StateHash.h>
 #include <navvi_msgs/TrialEvent.h>
-#include <navvi_msgs/TrialState.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
@@ -26,17 +17,21 @@
 #include <filesystem>
 #include <map>
 #include <navvi_files/files.hpp>
+#include <navvi_types/msg_conversion.hpp>
 #include <string>
 #include <vector>
 
-#include "record/journal.hpp"
 #include "record/figures.hpp"
-#include "record/row.hpp"
+#include "record/journal.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_study {
 namespace {
 
 namespace fs = std::filesystem;
+using navvi_types::DriveState;
+using navvi_types::ThingClass;
+using navvi_types::to_msg;
 
 /// Starts a program; ends it for sure.
 class Process {
@@ -99,57 +94,32 @@ class World {
         "navvi/trial_state", 100, [this](const navvi_msgs::TrialState::ConstPtr& msg) {
           if (msg->state == navvi_msgs::TrialState::RUNNING) running.push_back(msg->header.stamp);
         });
-    navvi_msgs::DriveState state;
-    state.header.stamp = stamp();
-    state.state = navvi_msgs::DriveState::RUNNING;
-    drive_.publish(state);
-    navvi_msgs::Scenario scenario;
-    scenario.world = "hall, small";
-    scenario.world_hash = "c0ffee";
-    scenario.seed = 7;
-    scenario.start.orientation.w = 1.0;
-    scenario.goal.x = 4.0;
-    scenario_.publish(scenario);
+    drive_.publish(to_msg(DriveState{DriveState::State::running, {}, 0, now()}));
+    scenario_.publish(to_msg(navvi_types::Scenario{"hall, small", "c0ffee", 7, {4.0, 0.0}}));
   }
 
   /// 20 ms of it.
   void step() {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
     ++tick_;
-    rosgraph_msgs::Clock now;
-    now.clock = stamp();
-    clock_.publish(now);
+    rosgraph_msgs::Clock clock;
+    clock.clock = navvi_types::from_ns(now());
+    clock_.publish(clock);
     if (has_goal_ && x_ < goal_x_ && moving) x_ += 0.04;
-    nav_msgs::Odometry odom;
-    odom.header.stamp = stamp();
-    odom.pose.pose.position.x = x_;
-    odom.pose.pose.orientation.w = 1.0;
-    odom_.publish(odom);
+    odom_.publish(to_msg(navvi_types::Odometry{now(), {{x_, 0.0}}}));
     publish_guidance();
     diagnostic_msgs::DiagnosticArray devices;
-    devices.header.stamp = stamp();
+    devices.header.stamp = clock.clock;
     devices.status.resize(1);
     devices.status[0].name = "navvi/audio";
     devices_.publish(devices);
-    navvi_msgs::Proximity proximity;
-    proximity.header.stamp = stamp();
-    proximity.detection_radius = 5.0;
-    proximity.things.resize(2);
-    proximity.things[0].id = 3;
-    proximity.things[0].name = "shelf; 3";
-    proximity.things[0].thing_class = "shelf";
-    proximity.things[0].gap = std::abs(x_ - 2.0);
-    proximity.things[1].id = 4;
-    proximity.things[1].name = "worker";
-    proximity.things[1].thing_class = "worker";
-    proximity.things[1].gap = 4.0;
-    proximity.things[1].nearest.y = 2.0;
-    proximity_.publish(proximity);
-    navvi_msgs::StateHash state;
-    state.header.stamp = stamp();
-    state.step = static_cast<std::uint64_t>(tick_);
-    state.hash = "00000000c0ffee00";
-    if (tick_ % 50 == 0) state_.publish(state);
+    proximity_.publish(to_msg(navvi_types::Proximity{
+        now(),
+        {{ThingClass::shelf, 3, std::abs(x_ - 2.0), {}, false, "shelf; 3"},
+         {ThingClass::worker, 4, 4.0, {0.0, 2.0}, false, "worker"}}}));
+    if (tick_ % 50 == 0)
+      state_.publish(to_msg(
+          navvi_types::StateHash{now(), static_cast<std::uint64_t>(tick_), 0xc0ffee00}));
     if (x_ > 2.0 && !hit_) touch();
   }
 
@@ -158,58 +128,45 @@ class World {
   std::vector<ros::Time> running;  ///< the stamp of each message that says so
 
  private:
-  [[nodiscard]] ros::Time stamp() const { return ros::Time(10.0) + ros::Duration(0.02 * tick_); }
+  /// ns, ROS time
+  [[nodiscard]] std::int64_t now() const { return 10'000'000'000 + 20'000'000 * tick_; }
 
   void publish_guidance() {
-    navvi_msgs::Guidance guidance;
-    guidance.header.stamp = stamp();
+    using State = navvi_types::Guidance::State;
+    navvi_types::Guidance guidance;
+    guidance.stamp = now();
     guidance.seq = ++seq_;
     if (has_goal_) {
-      guidance.state =
-          goal_x_ - x_ < 1.0 ? navvi_msgs::Guidance::ARRIVED : navvi_msgs::Guidance::FOLLOWING;
-      guidance.goal.x = goal_x_;
+      guidance.state = goal_x_ - x_ < 1.0 ? State::arrived : State::following;
+      guidance.goal.x() = goal_x_;
       guidance.goal_distance = std::max(0.0, goal_x_ - x_);
       guidance.plans = 1 + (x_ > 1.0 ? 1 : 0);
-      guidance.replan_reason = navvi_msgs::Guidance::PERIOD;
+      guidance.replan_reason = navvi_types::Guidance::Replan::period;
     }
-    guidance_.publish(guidance);
+    guidance_.publish(to_msg(guidance));
   }
 
   void touch() {
     hit_ = true;
-    navvi_msgs::Contact contact;
-    contact.header.stamp = stamp();
-    contact.seq = 2;  // the first one was lost
-    contact.thing_class = "shelf";
-    contact.name = "shelf; 3";
-    contact.robot.position.x = x_;
-    contact.robot.orientation.w = 1.0;
+    navvi_types::Contact contact{ThingClass::shelf, {x_, 0.0}, 3, "shelf; 3", 0.0, {{x_, 0.0}}};
     contact.speed = 2.0;
-    contact.counts.resize(2);
-    contact.counts[0].thing_class = "shelf";
-    contact.counts[0].count = 1;
-    contact.counts[1].thing_class = "wall";
-    contact.counts[1].count = 1;
-    contacts_.publish(contact);
-    navvi_msgs::Cue cue;
-    cue.header.stamp = stamp();
-    cue.id = 1;
-    cue.stage = navvi_msgs::Cue::STARTED;
-    cue.kind = "stuck";
-    cue.text = "stuck, shelf ahead";
-    cues_.publish(cue);
-    navvi_msgs::DriveState state;
-    state.header.stamp = stamp();
-    state.state = navvi_msgs::DriveState::STOPPED;
-    state.reason = navvi_msgs::DriveState::COMMAND_LOST;
-    drive_.publish(state);
+    contact.counts = {{ThingClass::shelf, 1}, {ThingClass::wall, 1}};
+    contact.seq = 2;  // the first one was lost
+    contact.stamp = now();
+    contacts_.publish(to_msg(contact));
+    navvi_types::CueEvent cue{1, navvi_types::CueStage::started, navvi_types::CueKind::stuck,
+                              "stuck, shelf ahead"};
+    cue.stamp = now();
+    cues_.publish(to_msg(cue));
+    drive_.publish(
+        to_msg(DriveState{DriveState::State::stopped, DriveState::Reason::command_lost, 0, now()}));
   }
 
   ros::NodeHandle node_;
   ros::Publisher clock_, odom_, guidance_, proximity_, contacts_, cues_, drive_, scenario_, state_,
       devices_;
   ros::Subscriber goal_, events_, trial_;
-  int tick_ = 0;
+  std::int64_t tick_ = 0;
   std::uint32_t seq_ = 0;
   double x_ = 0.0;
   double goal_x_ = 0.0;
@@ -221,10 +178,7 @@ class TrialNodeProcess : public testing::Test {
  protected:
   void SetUp() override {
     ros::param::del("/trial_node");  // what the last test's command line set
-    std::string pattern = (fs::temp_directory_path() / "navvi_trial_XXXXXX").string();
-    out_ = ::mkdtemp(pattern.data());
   }
-  void TearDown() override { fs::remove_all(out_); }
 
   [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> words = {TRIAL_NODE, "_out:=" + out_.string(), "_tail:=0.5",
@@ -254,13 +208,17 @@ class TrialNodeProcess : public testing::Test {
     return {summary->begin(), summary->end()};
   }
   static bool has(const World& world, const std::string& type) {
-    for (const auto& event : world.events) {
-      if (event.type == type) return true;
-    }
-    return false;
+    return std::any_of(world.events.begin(), world.events.end(),
+                       [&](const auto& event) { return event.type == type; });
+  }
+  /// Of a trial that has begun, and whose robot stands.
+  void begin(World& world) {
+    world.moving = false;
+    ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
   }
 
-  fs::path out_;
+  const navvi_test::TempFolder folder_;
+  const fs::path& out_ = folder_;
 };
 
 TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_that_agree) {
@@ -282,31 +240,24 @@ TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_th
   }
 
   auto summary = summary_in(folder);
-  EXPECT_EQ(summary["result"], "reached");
-  EXPECT_EQ(summary["world"], "hall, small");
-  EXPECT_EQ(summary["seed"], "7");
-  EXPECT_EQ(summary["operator"], "scripted");
-  EXPECT_EQ(summary["shelf_collision_count"], "1");
-  EXPECT_EQ(summary["obstacle_collision_count"], "1")
-      << "the lost contact with a wall is made good";
-  EXPECT_EQ(summary["missed_messages"], "1");
-  EXPECT_EQ(summary["shelf_proximity_count"], "1");
-  EXPECT_EQ(summary["obstacle_proximity_count"], "1");
-  EXPECT_EQ(summary["stuck_count"], "1");
-  EXPECT_EQ(summary["safe_stop_count"], "1");
-  EXPECT_EQ(summary["replan_count"], "1");
-  EXPECT_EQ(summary["cues_spoken"], "1");
-  EXPECT_EQ(summary["state_hash"], "00000000c0ffee00");
-  EXPECT_EQ(summary["bag"], "ok");
+  for (const auto& [column, cell] : std::map<std::string, std::string>{
+           {"result", "reached"}, {"world", "hall, small"}, {"seed", "7"}, {"operator", "scripted"},
+           {"shelf_collision_count", "1"}, {"shelf_proximity_count", "1"},
+           {"obstacle_collision_count", "1"},  // the lost contact with a wall is made good
+           {"obstacle_proximity_count", "1"}, {"missed_messages", "1"}, {"stuck_count", "1"},
+           {"safe_stop_count", "1"}, {"replan_count", "1"}, {"cues_spoken", "1"},
+           {"state_hash", "00000000c0ffee00"}, {"bag", "ok"}})
+    EXPECT_EQ(summary[column], cell) << column;
   EXPECT_NEAR(std::stod(summary["path_length_m"]), 3.0, 0.15);
   EXPECT_FALSE(fs::exists(folder / "trial.bag.active"));
 
-  EXPECT_EQ(std::system((std::string(COUNT_TRIAL) + " bag " + folder.string()).c_str()), 0);
-  EXPECT_EQ(std::system((std::string(COUNT_TRIAL) + " journal " + folder.string()).c_str()), 0);
-
+  const auto recount = [&](const std::string& of) {
+    return navvi_test::run(COUNT_TRIAL " " + of + " " + folder.string()).code;
+  };
+  EXPECT_EQ(recount("bag"), 0);
+  EXPECT_EQ(recount("journal"), 0);
   fs::resize_file(folder / "trial.bag", fs::file_size(folder / "trial.bag") / 2);
-  const int damaged = std::system((std::string(COUNT_TRIAL) + " bag " + folder.string()).c_str());
-  EXPECT_EQ(WEXITSTATUS(damaged), 2) << "a damaged bag is told, not guessed from";
+  EXPECT_EQ(recount("bag"), 2) << "a damaged bag is told, not guessed from";
 }
 
 TEST_F(TrialNodeProcess, the_state_is_repeated_with_the_time_at_which_the_trial_began) {
@@ -319,9 +270,8 @@ TEST_F(TrialNodeProcess, the_state_is_repeated_with_the_time_at_which_the_trial_
 
 TEST_F(TrialNodeProcess, a_signal_closes_the_trial_as_aborted_and_keeps_its_bag) {
   World world;
-  world.moving = false;
   Process node(command());
-  ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
+  begin(world);
   node.signal(SIGTERM);
   ASSERT_TRUE(run(world, [&] { return !node.running(); }));
   const fs::path folder = only_folder();
@@ -331,9 +281,8 @@ TEST_F(TrialNodeProcess, a_signal_closes_the_trial_as_aborted_and_keeps_its_bag)
 
 TEST_F(TrialNodeProcess, M2_a_second_node_of_its_name_ends_the_trial_with_its_record_whole) {
   World world;
-  world.moving = false;
   Process node(command());
-  ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
+  begin(world);
   fs::create_directory(out_ / "twin");
   const Process twin({TRIAL_NODE, "_out:=" + (out_ / "twin").string()});
   ASSERT_TRUE(run(world, [&] { return !node.running(); }));
@@ -348,9 +297,8 @@ TEST_F(TrialNodeProcess, M2_a_second_node_of_its_name_ends_the_trial_with_its_re
 
 TEST_F(TrialNodeProcess, P3_records_a_parameter_that_is_set_while_a_condition_is_locked) {
   World world;
-  world.moving = false;
   Process node(command({"_locked:=true", "_record:=none", "_limit:=10"}));
-  ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
+  begin(world);
   ros::param::set("/trial_node/limit", 1.0);
   ASSERT_TRUE(run(world, [&] { return has(world, "PARAMETER_SET"); }));
   EXPECT_FALSE(has(world, "TRIAL_END"));
@@ -372,10 +320,9 @@ TEST_F(TrialNodeProcess, what_it_records_is_its_owners_alone) {
 TEST_F(TrialNodeProcess, a_killed_trial_is_closed_by_the_next_start) {
   fs::path first;
   World world;
-  world.moving = false;
   {
     Process node(command({"_record:=none"}));
-    ASSERT_TRUE(run(world, [&] { return has(world, "PROXIMITY_ENTER"); }));
+    begin(world);
     first = only_folder();
     node.signal(SIGKILL);
     ASSERT_TRUE(run(world, [&] { return !node.running(); }));

@@ -88,6 +88,13 @@ class Trials : public testing::Test {
     live(1.0);
     live(1.0, State::following, kScenario.goal);
   }
+  /// Start, or the end.
+  void press(TrialRequest::Kind kind = TrialRequest::Kind::begin) {
+    keeper_->take(TrialRequest{kind, now().ros_ns}, now());
+  }
+  void report(const std::string& device) {
+    keeper_->take(DeviceReport{now().ros_ns, device, DeviceState::works}, now());
+  }
   /// So many s in which all nodes report.
   void live(double seconds, State state = State::no_goal,
             const Eigen::Vector2d& goal = Eigen::Vector2d::Zero()) {
@@ -96,8 +103,7 @@ class Trials : public testing::Test {
       const bool there = state == State::arrived && !elsewhere_;
       keeper_->take(Odometry{now().ros_ns, {there ? goal : Eigen::Vector2d(time_, 0.0)}}, now());
       guide(state, goal);
-      const DeviceReport report{now().ros_ns, "latency", DeviceState::works};
-      if (feedback_) keeper_->take(report, now());
+      if (feedback_) report("latency");
       keeper_->step(now());
     }
   }
@@ -121,8 +127,21 @@ class Trials : public testing::Test {
     text << std::ifstream(folders().back() / name).rdbuf();
     return text.str();
   }
-  [[nodiscard]] bool happened(const std::string& type) const {
-    return std::find(events_.begin(), events_.end(), type) != events_.end();
+  [[nodiscard]] testing::AssertionResult holds(const std::string& name,
+                                               const std::string& words) const {
+    return found(content(name), words);
+  }
+  [[nodiscard]] testing::AssertionResult said(const std::string& words) const {
+    return found(said_, words);
+  }
+  [[nodiscard]] std::ptrdiff_t times(const std::string& type) const {
+    return std::count(events_.begin(), events_.end(), type);
+  }
+  [[nodiscard]] bool happened(const std::string& type) const { return times(type) > 0; }
+
+  static testing::AssertionResult found(const std::string& text, const std::string& words) {
+    const bool there = text.find(words) != std::string::npos;
+    return (there ? testing::AssertionSuccess() : testing::AssertionFailure()) << text;
   }
 
   navvi_test::TempFolder folder_;

@@ -9,52 +9,35 @@ namespace {
 
 const Eigen::Vector2d kPicture(1920.0, 1080.0);
 
-/// One after another, each beside those before it.
-std::vector<std::optional<Eigen::Vector2d>> place_all(const std::vector<Plate>& plates,
-                                                      const Eigen::Vector2d& picture,
-                                                      Taken taken) {
-  std::vector<std::optional<Eigen::Vector2d>> corners;
+/// One after another each lies in the picture, and over none before it or what is taken.
+void expect_apart(const std::vector<Plate>& plates, const Eigen::Vector2d& picture,
+                  std::vector<Rect> taken) {
   for (const Plate& plate : plates) {
-    corners.push_back(place(plate, picture, taken));
-    if (corners.back()) taken.always.emplace_back(*corners.back(), *corners.back() + plate.size);
+    const auto corner = place(plate, picture, {taken, {}});
+    ASSERT_TRUE(corner) << plate.anchor.transpose();
+    const Rect mine(*corner, *corner + plate.size);
+    EXPECT_TRUE(Rect(Eigen::Vector2d::Zero(), picture).contains(mine)) << plate.anchor.transpose();
+    for (const Rect& other : taken)
+      EXPECT_LE(mine.intersection(other).sizes().minCoeff(), 0.0) << plate.anchor.transpose();
+    taken.push_back(mine);
   }
-  return corners;
 }
 
 TEST(Place, plates_lie_inside_and_never_over_each_other_or_what_is_taken) {
-  const std::vector<Rect> taken = {{Eigen::Vector2d(600.0, 0.0), Eigen::Vector2d(1300.0, 120.0)}};
   std::vector<Plate> plates;
   for (const double x : {-500.0, 0.0, 900.0, 1000.0, 5000.0})
     for (const double y : {-50.0, 100.0, 130.0, 2000.0})
       plates.push_back({{x, y}, {300.0, 50.0}, std::nullopt});
-  const auto corners = place_all(plates, kPicture, {taken, {}});
-  std::vector<Rect> rects = taken;
-  for (std::size_t i = 0; i < plates.size(); ++i) {
-    ASSERT_TRUE(corners[i]) << i;
-    const Rect mine(*corners[i], *corners[i] + plates[i].size);
-    EXPECT_TRUE(Rect(Eigen::Vector2d::Zero(), kPicture).contains(mine)) << i;
-    for (const Rect& other : rects)
-      EXPECT_LE(mine.intersection(other).sizes().minCoeff(), 0.0) << i;
-    rects.push_back(mine);
-  }
+  expect_apart(plates, kPicture, {{Eigen::Vector2d(600.0, 0.0), Eigen::Vector2d(1300.0, 120.0)}});
 }
 
 TEST(Place, large_plates_in_a_low_picture_go_aside) {
-  const Eigen::Vector2d low(1920.0, 560.0);
-  const std::vector<Rect> taken = {{Eigen::Vector2d(500.0, 10.0), Eigen::Vector2d(1400.0, 260.0)},
-                                   {Eigen::Vector2d(850.0, 290.0), Eigen::Vector2d(1060.0, 500.0)}};
-  const std::vector<Plate> plates = {{{950.0, 300.0}, {280.0, 110.0}, std::nullopt},
-                                     {{950.0, 280.0}, {740.0, 110.0}, std::nullopt},
-                                     {{950.0, 400.0}, {310.0, 110.0}, std::nullopt}};
-  std::vector<Rect> rects = taken;
-  const auto corners = place_all(plates, low, {taken, {}});
-  for (std::size_t i = 0; i < plates.size(); ++i) {
-    ASSERT_TRUE(corners[i]) << i;
-    const Rect mine(*corners[i], *corners[i] + plates[i].size);
-    for (const Rect& other : rects)
-      EXPECT_LE(mine.intersection(other).sizes().minCoeff(), 0.0) << i;
-    rects.push_back(mine);
-  }
+  expect_apart({{{950.0, 300.0}, {280.0, 110.0}, std::nullopt},
+                {{950.0, 280.0}, {740.0, 110.0}, std::nullopt},
+                {{950.0, 400.0}, {310.0, 110.0}, std::nullopt}},
+               {1920.0, 560.0},
+               {{Eigen::Vector2d(500.0, 10.0), Eigen::Vector2d(1400.0, 260.0)},
+                {Eigen::Vector2d(850.0, 290.0), Eigen::Vector2d(1060.0, 500.0)}});
 }
 
 TEST(Place, a_plate_without_room_beside_what_is_always_free_is_not_drawn) {

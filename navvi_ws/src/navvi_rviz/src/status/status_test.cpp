@@ -33,6 +33,12 @@ DriveState gate(DriveState::State state) {
   return drive;
 }
 
+CueEvent queued(CueKind kind, const std::string& text) {
+  CueEvent cue = said(kind, text);
+  cue.stage = CueStage::queued;
+  return cue;
+}
+
 /// In a session of this language.
 Status speaking(const std::string& language = "en") {
   Status status;
@@ -48,18 +54,7 @@ TEST(Status, of_nothing_is_empty) {
   EXPECT_FALSE(shown.clock);
 }
 
-TEST(Status, shows_no_distance_to_a_goal_that_is_not_seen_yet) {
-  Status status = speaking();
-  Guidance guidance = in(Guidance::State::following);
-  guidance.goal_distance = 8.0;
-  status.take(guidance);
-  EXPECT_EQ(status.shown(1.0, 0.0).distance, "8 meters to go");
-  guidance.ends_short = true;
-  status.take(guidance);
-  EXPECT_EQ(status.shown(1.0, 0.0).distance, "");
-}
-
-TEST(Status, rounds_the_distance_as_the_voice_does_and_in_its_unit) {
+TEST(Status, rounds_the_distance_as_the_voice_does_and_shows_none_to_a_goal_that_is_not_seen_yet) {
   Status status = speaking();
   Guidance guidance = in(Guidance::State::following);
   guidance.goal_distance = 1.4;
@@ -67,6 +62,9 @@ TEST(Status, rounds_the_distance_as_the_voice_does_and_in_its_unit) {
   EXPECT_EQ(status.shown(1.0, 0.0).distance, "1.5 meters to go");
   status.use(Words(NAVVI_PHRASES "/es.yaml", "feet"));
   EXPECT_EQ(status.shown(1.0, 0.0).distance, "5 pies hasta la meta");
+  guidance.ends_short = true;
+  status.take(guidance);
+  EXPECT_EQ(status.shown(1.0, 0.0).distance, "");
 }
 
 TEST(Status, shows_the_order_but_for_the_way_which_the_plate_shows) {
@@ -145,11 +143,6 @@ TEST(Status, where_nothing_can_be_heard_what_would_have_been_said_is_shown) {
 
 TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
   Status status = speaking();
-  const auto queued = [](CueKind kind, const std::string& text) {
-    CueEvent cue = said(kind, text);
-    cue.stage = CueStage::queued;
-    return cue;
-  };
   status.take(queued(CueKind::menu, "volume, 50 percent"), 0.0);
   status.take(said(CueKind::direction, "turn to 2 o'clock, 5 meters"), 1.0);
   EXPECT_EQ(status.shown(1.0, 0.0).menu, "volume, 50 percent");

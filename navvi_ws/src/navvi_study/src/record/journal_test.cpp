@@ -24,10 +24,7 @@ class Folder : public testing::Test {
  protected:
   [[nodiscard]] fs::path journal() const { return path_ / "journal.csv"; }
   [[nodiscard]] std::string bytes() const { return navvi_files::read_file(journal()).value_or(""); }
-  [[nodiscard]] Journal open(
-      navvi_files::SystemCalls calls = navvi_files::SystemCalls::real()) const {
-    return Journal(path_, "trial-1", 0, std::move(calls));
-  }
+  [[nodiscard]] Journal open() const { return Journal(path_, "trial-1", 0, calls_); }
   /// A finished trial's journal.
   std::string finished() {
     Journal journal = open();
@@ -46,6 +43,7 @@ class Folder : public testing::Test {
 
   navvi_test::TempFolder folder_;
   const fs::path& path_ = folder_;
+  navvi_files::SystemCalls calls_ = navvi_files::SystemCalls::real();
 };
 
 using AJournal = Folder;
@@ -106,9 +104,8 @@ TEST_F(AJournal, cut_anywhere_keeps_the_rows_before) {
 }
 
 TEST_F(AJournal, survives_interrupted_and_short_writes) {
-  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   int turn = 0;
-  calls.write = [&turn](int file, const void* data, std::size_t size) -> ssize_t {
+  calls_.write = [&turn](int file, const void* data, std::size_t size) -> ssize_t {
     if (++turn % 2 == 0) {
       errno = EINTR;
       return -1;
@@ -116,7 +113,7 @@ TEST_F(AJournal, survives_interrupted_and_short_writes) {
     return ::write(file, data, std::min<std::size_t>(size, 7));
   };
   {
-    Journal journal = open(calls);
+    Journal journal = open();
     ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
   }
   EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
@@ -127,17 +124,16 @@ TEST_F(AJournal, is_on_the_disk_with_its_folders_before_a_trial_begins) {
                                      fs::canonical(path_).parent_path()};
   std::vector<fs::path> synced;
   std::size_t fails = all.size();
-  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
-  calls.fdatasync = calls.fsync = [&](int file) {
+  calls_.fdatasync = calls_.fsync = [&](int file) {
     synced.push_back(fs::read_symlink("/proc/self/fd/" + std::to_string(file)));
     return synced.size() - 1 == fails ? -1 : 0;
   };
-  (void)open(calls);
+  (void)open();
   EXPECT_EQ(synced, all);
   for (fails = 0; fails < all.size(); ++fails) {
     fs::remove(journal());
     synced.clear();
-    EXPECT_THROW((void)open(calls), std::runtime_error) << all[fails];
+    EXPECT_THROW((void)open(), std::runtime_error) << all[fails];
   }
 }
 
@@ -150,16 +146,15 @@ TEST_F(AJournal, that_lacks_a_row_is_damaged_there) {
 }
 
 TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
-  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   bool fail = false;
   int asked = 0;
-  calls.fdatasync = [&](int file) {
+  calls_.fdatasync = [&](int file) {
     ++asked;
     if (!fail) return ::fdatasync(file);
     errno = EIO;
     return -1;
   };
-  Journal journal = open(calls);
+  Journal journal = open();
   ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
   fail = true;
   EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
@@ -172,16 +167,15 @@ TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
 }
 
 TEST_F(AJournal, on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
-  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
   bool full = false;
-  calls.write = [&](int file, const void* data, std::size_t size) -> ssize_t {
+  calls_.write = [&](int file, const void* data, std::size_t size) -> ssize_t {
     if (full && fs::exists(path_ / "journal.reserve")) {
       errno = ENOSPC;
       return -1;
     }
     return ::write(file, data, size);
   };
-  Journal journal = open(calls);
+  Journal journal = open();
   full = true;
   EXPECT_TRUE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
   EXPECT_TRUE(journal.full());
@@ -312,19 +306,18 @@ TEST_F(Recovering, writes_a_missing_summary_again) {
 TEST_F(Folder, a_file_is_replaced_as_a_whole_or_not_at_all) {
   const fs::path file = path_ / "summary.csv";
   ASSERT_FALSE(navvi_files::write_atomically(file, "old").has_value());
-  navvi_files::SystemCalls calls = navvi_files::SystemCalls::real();
-  calls.fsync = [](int) {
+  calls_.fsync = [](int) {
     errno = EIO;
     return -1;
   };
-  EXPECT_TRUE(navvi_files::write_atomically(file, "new", calls).has_value());
+  EXPECT_TRUE(navvi_files::write_atomically(file, "new", calls_).has_value());
   EXPECT_EQ(navvi_files::read_file(file).value(), "old");
-  calls = navvi_files::SystemCalls::real();
-  calls.rename = [](const char*, const char*) {
+  calls_ = navvi_files::SystemCalls::real();
+  calls_.rename = [](const char*, const char*) {
     errno = EROFS;
     return -1;
   };
-  EXPECT_TRUE(navvi_files::write_atomically(file, "new", calls).has_value());
+  EXPECT_TRUE(navvi_files::write_atomically(file, "new", calls_).has_value());
   EXPECT_EQ(navvi_files::read_file(file).value(), "old");
   EXPECT_FALSE(fs::exists(path_ / "summary.csv.tmp"));
 }

@@ -60,12 +60,10 @@ TEST(Readiness, calls_topics_and_frames_as_this_session_does) {
 TEST(Readiness, says_of_each_device_what_was_last_reported) {
   Readiness ready({});
   EXPECT_EQ(ready.state_of("audio"), "unknown");
-  ready.saw({0, "audio", DeviceState::works}, 0.0);
-  EXPECT_EQ(ready.state_of("audio"), "works");
-  ready.saw({0, "audio", DeviceState::missing}, 0.0);
-  EXPECT_EQ(ready.state_of("audio"), "missing");
-  ready.saw({0, "audio", DeviceState::off}, 0.0);
-  EXPECT_EQ(ready.state_of("audio"), "off");
+  for (const DeviceState state : {DeviceState::works, DeviceState::missing, DeviceState::off}) {
+    ready.saw({0, "audio", state}, 0.0);
+    EXPECT_EQ(ready.state_of("audio"), navvi_types::to_string(state));
+  }
 }
 
 TEST(Readiness, misses_the_feedback_only_once_it_was_there) {
