@@ -67,7 +67,8 @@ class Picture(Programs):
 
     def __init__(self, env, vision, view="chase", size="1920x1080"):
         import rospy
-        from geometry_msgs.msg import Point, TransformStamped
+        from fake_robot import transform
+        from geometry_msgs.msg import Point
         from std_msgs.msg import ColorRGBA
         from tf2_msgs.msg import TFMessage
         from visualization_msgs.msg import Marker, MarkerArray
@@ -79,13 +80,7 @@ class Picture(Programs):
         super().__init__(dict(env, DISPLAY=self.display.name, LIBGL_ALWAYS_SOFTWARE="1"))
         self.furnish()
         frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-        transforms = []
-        for parent, child in [("map", "odom"), ("odom", "base_link")]:
-            transform = TransformStamped()
-            transform.header.frame_id, transform.child_frame_id = parent, child
-            transform.transform.rotation.w = 1.0
-            transforms.append(transform)
-        frames.publish(TFMessage(transforms))
+        frames.publish([transform(*edge, 0.0, rospy.Time()) for edge in (("map", "odom"), ("odom", "base_link"))])
         self.topics = {name: rospy.Publisher(name, MarkerArray, queue_size=10, latch=True)
                        for name in ("/navvi/scene", "/navvi/scene_moving", "/navvi/markers")}
         self.frames = frames

@@ -3,13 +3,13 @@ import math
 import subprocess
 
 import pytest
-from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import Joy, LaserScan, PointCloud2, PointField
 from tf2_msgs.msg import TFMessage
 
 import rospy
 
+import fake_robot
 from navvi_cli import robot, robot_check
 from navvi_cli.arguments import LaunchFile
 from sessions import ROOT, Programs
@@ -23,9 +23,7 @@ def stamped(message, frame, age=0.05, now=NOW):
 
 
 def transform(parent, child, x=0.0, z=0.0, age=0.05, now=NOW):
-    out = stamped(TransformStamped(child_frame_id=child), parent, age, now)
-    out.transform.translation.x, out.transform.translation.z, out.transform.rotation.w = x, z, 1.0
-    return TFMessage([out])
+    return TFMessage([fake_robot.transform(parent, child, z, rospy.Time(now - age), x)])
 
 
 def scan(value=lambda ray: 3.0, **more):
