@@ -74,6 +74,7 @@ def test_help_is_short_without_columns_and_tells_the_exit_codes(command):
 def test_every_command_is_listed_with_its_summary():
     listed = dict(line.split(": ", 1) for line in navvi("help").stdout.splitlines() if re.match(r"[a-z]+: ", line))
     assert sorted([*listed, "help"]) == COMMANDS and all(summary.endswith(".") for summary in listed.values())
+    assert navvi("--help").stdout == navvi("help").stdout
 
 
 def test_every_function_of_the_commands_is_short():

@@ -205,14 +205,6 @@ def test_the_verdict_on_a_world_is_the_one_of_navigation(goal, code, sentence, d
         assert "ROS_MASTER_URI" not in result.stdout, "a session was started"
 
 
-def test_a_command_tells_its_arguments():
-    result = navvi("run", "--help")
-    assert result.returncode == 0
-    assert "participant:=n/a" in result.stdout and "a pseudonym for the record" in result.stdout
-    assert navvi("check", "--help").stdout.startswith("./navvi check TRIAL")
-    assert navvi("--help").stdout == navvi("help").stdout
-
-
 @pytest.mark.parametrize("path", sorted((ROOT / "launch").glob("*.launch")), ids=lambda path: path.name)
 def test_each_launch_file_resolves_to_nodes_that_exist(path):
     needed = [f"{arg.get('name')}:=/nonexistent" for arg in ElementTree.parse(path).getroot().iter("arg")

@@ -291,18 +291,6 @@ TEST_F(Recovering, keeps_no_file_open) {
   EXPECT_EQ(opened(), before);
 }
 
-TEST_F(Recovering, writes_a_missing_summary_again) {
-  const fs::path folder = path_ / "trial-1";
-  fs::create_directory(folder);
-  {
-    Journal journal(folder, "trial-1", 0);
-    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
-  }
-  EXPECT_EQ(recover_trials(path_).size(), 1u);
-  EXPECT_TRUE(parse_summary(navvi_files::read_file(folder / "summary.csv").value_or("")));
-  EXPECT_EQ(recover_trials(path_).size(), 0u);
-}
-
 TEST_F(Folder, a_file_is_replaced_as_a_whole_or_not_at_all) {
   const fs::path file = path_ / "summary.csv";
   ASSERT_FALSE(navvi_files::write_atomically(file, "old").has_value());

@@ -397,17 +397,6 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   EXPECT_TRUE(happened("TRIAL_START"));
 }
 
-TEST_F(Trials, A1_do_not_begin_before_the_guide_has_reported) {
-  feedback_ = false;
-  offer();
-  live(6.0);
-  EXPECT_TRUE(events_.empty());
-  EXPECT_TRUE(said("waiting for a report of feedback_node"));
-  feedback_ = true;
-  live(1.0);
-  EXPECT_TRUE(happened("TRIAL_START"));
-}
-
 TEST_F(Trials, S1_that_a_crash_has_stopped_do_not_say_that_a_hand_did) {
   run();
   keeper_->stop(now(), "simulator_lost");

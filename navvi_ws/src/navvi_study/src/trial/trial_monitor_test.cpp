@@ -49,6 +49,11 @@ class Monitor : public testing::Test {
   }
   using Names = std::vector<std::string>;
   using State = Guidance::State;
+  /// The types of the events that a report makes.
+  template <typename Report>
+  Names seen(const Report& report) {
+    return types(monitor_.observe(report));
+  }
 
   TrialMonitor monitor_{TrialMonitorConfig()};
 };
@@ -114,14 +119,14 @@ TEST_F(Monitor, counts_a_contact_that_comes_twice_once) {
 }
 
 TEST_F(Monitor, does_not_flicker_at_the_boundary) {
-  EXPECT_EQ(types(monitor_.observe(near(11.0, "worker", 4.9, 2.0))), Names{"PROXIMITY_ENTER"});
+  EXPECT_EQ(seen(near(11.0, "worker", 4.9, 2.0)), Names{"PROXIMITY_ENTER"});
   for (int i = 0; i < 20; ++i) {
     const double time = 11.1 + 0.1 * i;
     EXPECT_TRUE(monitor_.observe(near(time, "worker", i % 2 == 0 ? 6.0 : 4.99)).empty());
   }
   EXPECT_TRUE(monitor_.observe(near(13.1, "worker", 6.0)).empty());
-  EXPECT_EQ(types(monitor_.observe(near(13.8, "worker", 6.0))), Names{"PROXIMITY_LEAVE"});
-  EXPECT_EQ(types(monitor_.observe(near(14.0, "worker", 1.0))), Names{"PROXIMITY_ENTER"});
+  EXPECT_EQ(seen(near(13.8, "worker", 6.0)), Names{"PROXIMITY_LEAVE"});
+  EXPECT_EQ(seen(near(14.0, "worker", 1.0)), Names{"PROXIMITY_ENTER"});
 }
 
 TEST_F(Monitor, names_the_zone_of_an_obstacle) {
@@ -138,7 +143,7 @@ TEST_F(Monitor, names_the_zone_of_an_obstacle) {
 
 TEST_F(Monitor, takes_a_shelf_as_near_within_one_meter_only) {
   EXPECT_TRUE(monitor_.observe(near(11.0, "shelf", 1.05)).empty());
-  EXPECT_EQ(types(monitor_.observe(near(11.1, "shelf", 1.0))), Names{"PROXIMITY_ENTER"});
+  EXPECT_EQ(seen(near(11.1, "shelf", 1.0)), Names{"PROXIMITY_ENTER"});
   EXPECT_TRUE(monitor_.observe(near(12.0, "shelf", 1.05)).empty()) << "still within the margin";
 }
 
@@ -159,13 +164,12 @@ TEST_F(Monitor, ends_with_the_heading_and_what_is_on_either_side) {
   Odometry stood;
   stood.stamp = 11 * kSecond;
   stood.pose.yaw = 1.25;
-  EXPECT_EQ(types(monitor_.observe(stood)), Names{"PROGRESS"});
+  EXPECT_EQ(seen(stood), Names{"PROGRESS"});
   Proximity around = near(11.0, "worker", 0.5, 0.9);
   around.things.front().nearest.x() = 1.0;
   around.things.push_back({ThingClass::shelf, 2, 0.9, {1.0, 1.5}});
   around.things.push_back({ThingClass::wall, 3, 3.1, {1.0, -3.5}});
-  EXPECT_EQ(types(monitor_.observe(around)),
-            (Names{"PROXIMITY_ENTER", "PROXIMITY_ENTER", "PROXIMITY_ENTER"}));
+  EXPECT_EQ(seen(around), (Names{"PROXIMITY_ENTER", "PROXIMITY_ENTER", "PROXIMITY_ENTER"}));
   const record::Fields end = monitor_.end_fields();
   EXPECT_EQ(end.get("yaw"), "1.250");
   EXPECT_EQ(end.get("left"), "shelf") << "the worker is nearer, and ahead";
@@ -173,8 +177,7 @@ TEST_F(Monitor, ends_with_the_heading_and_what_is_on_either_side) {
 }
 
 TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
-  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
-            (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_EQ(seen(guidance(10.5, State::following)), (Names{"GUIDANCE", "ROUTE"}));
   EXPECT_EQ(monitor_.tally().first_path_length, 5.0);
   const auto events = monitor_.observe(guidance(17.25, State::arrived, 2));
   ASSERT_EQ(types(events), (Names{"GUIDANCE", "GOAL_REACHED"}));
@@ -187,10 +190,10 @@ TEST_F(Monitor, times_the_goal_from_the_start_and_ends_there) {
 TEST_F(Monitor, calls_no_path_the_first_that_ends_short_of_the_goal) {
   Guidance short_of_it = guidance(10.5, State::following);
   short_of_it.ends_short = true;
-  EXPECT_EQ(types(monitor_.observe(short_of_it)), Names{"GUIDANCE"});
+  EXPECT_EQ(seen(short_of_it), Names{"GUIDANCE"});
   Guidance whole = guidance(12.0, State::following, 2);
   whole.plans = 2;
-  EXPECT_EQ(types(monitor_.observe(whole)), Names{"REPLAN"});
+  EXPECT_EQ(seen(whole), Names{"REPLAN"});
   EXPECT_FALSE(monitor_.tally().first_path_length);
 }
 
@@ -208,8 +211,7 @@ TEST_F(Monitor, T4_an_arrival_that_the_odometry_contradicts_is_not_recorded_as_r
 TEST_F(Monitor, records_an_arrival_within_the_range_as_reached) {
   (void)monitor_.observe(Odometry{11 * kSecond, {{3.1, 0.0}}});
   (void)monitor_.observe(guidance(11.5, State::following));
-  EXPECT_EQ(types(monitor_.observe(guidance(12.0, State::arrived, 2))),
-            (Names{"GUIDANCE", "GOAL_REACHED"}));
+  EXPECT_EQ(seen(guidance(12.0, State::arrived, 2)), (Names{"GUIDANCE", "GOAL_REACHED"}));
   EXPECT_FALSE(monitor_.arrived_elsewhere());
 }
 
@@ -230,12 +232,11 @@ TEST_F(Monitor, does_not_call_a_goal_reached_where_the_robot_stands_at_the_start
 }
 
 TEST_F(Monitor, wants_its_goal_set_again_where_guidance_was_started_anew) {
-  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::following))),
-            (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_EQ(seen(guidance(10.5, State::following)), (Names{"GUIDANCE", "ROUTE"}));
   EXPECT_TRUE(monitor_.goal_taken());
-  EXPECT_EQ(types(monitor_.observe(guidance(12.0, State::no_goal))), Names{"GUIDANCE"});
+  EXPECT_EQ(seen(guidance(12.0, State::no_goal)), Names{"GUIDANCE"});
   EXPECT_FALSE(monitor_.goal_taken());
-  EXPECT_EQ(types(monitor_.observe(guidance(13.0, State::following))), Names{"GUIDANCE"});
+  EXPECT_EQ(seen(guidance(13.0, State::following)), Names{"GUIDANCE"});
   EXPECT_TRUE(monitor_.goal_taken());
 }
 
@@ -261,7 +262,7 @@ TEST_F(Monitor, does_not_take_another_goals_path_for_its_own) {
 TEST_F(Monitor, tells_a_refused_goal) {
   auto refused = guidance(10.5, State::goal_refused);
   refused.refusal = Guidance::Refusal::inside_obstacle;
-  EXPECT_EQ(types(monitor_.observe(refused)), (Names{"GUIDANCE", "GOAL_REFUSED"}));
+  EXPECT_EQ(seen(refused), (Names{"GUIDANCE", "GOAL_REFUSED"}));
   EXPECT_EQ(monitor_.refused(), "inside_obstacle");
 }
 
@@ -269,7 +270,7 @@ TEST_F(Monitor, counts_plans_after_the_first_even_where_a_message_was_lost) {
   (void)monitor_.observe(guidance(10.5, State::following, 1));
   auto later = guidance(11.0, State::following, 5);
   later.plans = 4;
-  EXPECT_EQ(types(monitor_.observe(later)), Names{"REPLAN"});
+  EXPECT_EQ(seen(later), Names{"REPLAN"});
   EXPECT_EQ(monitor_.tally().replans, 3u);
   EXPECT_EQ(monitor_.tally().missed_messages, 3u);
 }
@@ -284,12 +285,12 @@ TEST_F(Monitor, goes_on_counting_plans_when_the_guidance_was_started_anew) {
   (void)monitor_.observe(anew);
   anew = guidance(12.5, State::following, 2);
   anew.plans = 1;
-  EXPECT_EQ(types(monitor_.observe(anew)), (Names{"GUIDANCE", "REPLAN"}));
+  EXPECT_EQ(seen(anew), (Names{"GUIDANCE", "REPLAN"}));
   EXPECT_EQ(monitor_.tally().replans, 4u);
 }
 
 TEST_F(Monitor, takes_a_way_that_is_blocked_for_a_moment_for_a_way) {
-  EXPECT_EQ(types(monitor_.observe(guidance(10.5, State::blocked))), (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_EQ(seen(guidance(10.5, State::blocked)), (Names{"GUIDANCE", "ROUTE"}));
   EXPECT_TRUE(monitor_.goal_taken());
 }
 
@@ -311,7 +312,7 @@ TEST_F(Monitor, has_a_row_where_a_cue_begins_and_one_where_it_ends) {
   EXPECT_EQ(begins[0].fields.get("text"), "turn to 2 o'clock now");
   EXPECT_EQ(begins[0].fields.get("modality"), "speech");
   cue.stage = CueStage::cut;
-  EXPECT_EQ(types(monitor_.observe(cue)), Names{"CUE_END"});
+  EXPECT_EQ(seen(cue), Names{"CUE_END"});
 }
 
 TEST_F(Monitor, has_a_row_for_each_pattern_that_is_felt_and_none_for_what_is_near_all_the_time) {
@@ -348,7 +349,7 @@ TEST_F(Monitor, counts_being_stuck_once_a_cue) {
   const auto events = [this](std::uint32_t id, CueStage stage) {
     CueEvent cue{id, stage, CueKind::stuck};
     cue.stamp = 11 * kSecond;
-    return types(monitor_.observe(cue));
+    return seen(cue);
   };
   EXPECT_EQ(events(7, CueStage::queued), Names{"STUCK"});
   EXPECT_EQ(events(7, CueStage::started), Names{"CUE"});
@@ -362,7 +363,7 @@ TEST_F(Monitor, counts_every_way_of_being_told_that_the_robot_is_stuck) {
        {CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away, CueKind::blocked}) {
     CueEvent cue{++id, navvi_types::CueStage::queued, kind};
     cue.stamp = 11 * kSecond;
-    EXPECT_EQ(types(monitor_.observe(cue)), id < 4 ? Names{"STUCK"} : Names{}) << to_string(kind);
+    EXPECT_EQ(seen(cue), id < 4 ? Names{"STUCK"} : Names{}) << to_string(kind);
   }
   TrialStart older{20 * kSecond, {5.0, 0.0}};
   older.stuck = {CueKind::stuck};
@@ -398,23 +399,20 @@ TEST_F(Monitor, names_each_node_that_wants_to_drive_besides_the_guide) {
   drive.stamp = 12 * kSecond;
   EXPECT_TRUE(monitor_.observe(drive).empty());
   drive.intruder = "/joystick";
-  EXPECT_EQ(types(monitor_.observe(drive)), Names{"INTRUDER"});
+  EXPECT_EQ(seen(drive), Names{"INTRUDER"});
 }
 
 TEST_F(Monitor, tells_a_safe_stop_once_and_a_device_that_goes_and_comes) {
-  EXPECT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
+  EXPECT_EQ(seen(stopped(11)), Names{"SAFE_STOP"});
   EXPECT_TRUE(monitor_.observe(stopped(12)).empty());
   EXPECT_TRUE(monitor_.observe(DeviceReport{11 * kSecond, "pad", DeviceState::works}).empty());
-  EXPECT_EQ(types(monitor_.observe(DeviceReport{12 * kSecond, "pad", DeviceState::missing})),
-            Names{"DEVICE_LOST"});
-  EXPECT_EQ(types(monitor_.observe(DeviceReport{13 * kSecond, "pad", DeviceState::works})),
-            Names{"DEVICE_BACK"});
+  EXPECT_EQ(seen(DeviceReport{12 * kSecond, "pad", DeviceState::missing}), Names{"DEVICE_LOST"});
+  EXPECT_EQ(seen(DeviceReport{13 * kSecond, "pad", DeviceState::works}), Names{"DEVICE_BACK"});
 }
 
 TEST_F(Monitor, F4_records_a_voice_that_was_lost_and_back_between_two_reports) {
   const auto report = [&](int second, const char* losses) {
-    return types(monitor_.observe(
-        DeviceReport{second * kSecond, "speech", DeviceState::works, {{"losses", losses}}}));
+    return seen(DeviceReport{second * kSecond, "speech", DeviceState::works, {{"losses", losses}}});
   };
   EXPECT_TRUE(report(11, "1").empty()) << "before the trial";
   EXPECT_TRUE(report(12, "1").empty());
@@ -424,7 +422,7 @@ TEST_F(Monitor, F4_records_a_voice_that_was_lost_and_back_between_two_reports) {
 }
 
 TEST_F(Monitor, T1_records_a_clock_that_jumps_while_the_wheels_stand_for_another_reason) {
-  ASSERT_EQ(types(monitor_.observe(stopped(11))), Names{"SAFE_STOP"});
+  ASSERT_EQ(seen(stopped(11)), Names{"SAFE_STOP"});
   DriveState jumped = stopped(12);
   jumped.reason = DriveState::Reason::clock_jumped;
   const auto events = monitor_.observe(jumped);
