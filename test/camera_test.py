@@ -18,16 +18,14 @@ class Camera(Picture):
 
     def furnish(self):
         import rospy
-        from geometry_msgs.msg import TransformStamped
+        from fake_robot import transform
         from sensor_msgs.msg import CameraInfo, Image
         from tf2_msgs.msg import TFMessage
         image, info = Image(width=320, height=240, encoding="mono8", step=320, data=bytes([90]) * 320 * 240), CameraInfo(width=320, height=240)
         info.K = [280, 0, 160, 0, 280, 120, 0, 0, 1]
         info.P = [280, 0, 160, 0, 0, 280, 120, 0, 0, 0, 1, 0]
         info.R = [1, 0, 0, 0, 1, 0, 0, 0, 1]
-        frame = TransformStamped()
-        frame.header.frame_id, frame.child_frame_id = "base_link", "camera"
-        frame.transform.translation.z = 1.0
+        frame = transform("base_link", "camera", 1.0, rospy.Time())
         q = frame.transform.rotation
         cosine, sine = 0.5 * numpy.cos(0.175), 0.5 * numpy.sin(0.175)
         q.w, q.x, q.y, q.z = cosine - sine, -cosine - sine, cosine + sine, sine - cosine
