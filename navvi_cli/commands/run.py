@@ -58,14 +58,13 @@ def session(given):
     targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])]
     checkers = [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool"), *([FEEDBACK] if any(map(words.get, PLACES)) else [])]
     prepare(words, targets, checkers, check_by_programs)
-    network = Network()
+    return drive(launch_file, words, Network(), f"world {words['world']}, seed {words.get('seed', 1)}")
+
+
+def drive(launch_file, words, network, where):
     begin = time.time_ns()
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
-    announce(words, log, network, f"world {words['world']}, seed {words.get('seed', 1)}")
-    return drive(launch_file, words, log, network, begin)
-
-
-def drive(launch_file, words, log, network, begin):
+    announce(words, log, network, where)
     launch = Launch(launch_file, words, log, network)
     whole = launch.run() or launch.interrupted
     return report(words["out"], begin, log, launch.log.fatal) or int(not whole)
@@ -84,11 +83,8 @@ def far_session(given):
     network = FarNetwork(where)
     words["patience"] = "900"  # over a slow connection nodes take their time to meet
     words["clock"] = network.clock()
-    begin = time.time_ns()
-    log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
-    announce(words, log, network, f"the robot at {where}")
     try:
-        return drive(launch_file, words, log, network, begin)
+        return drive(launch_file, words, network, f"the robot at {where}")
     finally:
         if not network.near.finish(3.0):
             say("the robot's machine is told that this session has ended; Ctrl-C does not wait for that.")
