@@ -27,17 +27,20 @@ class World:
     """What ./navvi run draws from a name, or a file, and a seed."""
     world: str
     seed: int
+    zones: str = field(default="", compare=False)  # their file
 
     def __str__(self):
         return f"{self.world} {self.seed}"
 
 
 def worlds_of(part, folder):
-    """`{world: NAME, seeds: [...]}`; a file is looked for beside the plan."""
-    world = part.take("world", checked.text)
-    if world.endswith(WORLD_FILES) and not (folder / world).is_file():
-        raise part.error("world", f"is \"{world}\", and {folder / world} is not a file; allowed are files beside the plan, and names of ./navvi world list")
-    worlds = tuple(World(world, seed) for seed in part.take("seeds", checked.numbered(checked.whole(0, 2**31 - 1))))
+    """`{world: NAME, seeds: [...], zones: FILE}`; files are looked for beside the plan."""
+    world, zones = part.take("world", checked.text), part.take("zones", checked.text, "")
+    for key, name in ("world", world if world.endswith(WORLD_FILES) else ""), ("zones", zones):
+        if name and not (folder / name).is_file():
+            names = ", and names of ./navvi world list" if key == "world" else ""
+            raise part.error(key, f"is \"{name}\", and {folder / name} is not a file; allowed are files beside the plan{names}")
+    worlds = tuple(World(world, seed, zones) for seed in part.take("seeds", checked.numbered(checked.whole(0, 2**31 - 1))))
     part.done()
     return worlds
 
@@ -159,6 +162,11 @@ class Plan:
         """The file of a world that is no name; None for a name."""
         return Path(self.file).absolute().parent / world.world if world.world.endswith(WORLD_FILES) else None
 
+    def zones_of(self, world):
+        """Their file, as an argument of ./navvi and of a batch; none without zones."""
+        zones = next((one.zones for one in self.worlds if (one.world, one.seed) == (world.world, world.seed)), "")
+        return {"nav/mesh/zones": str(Path(self.file).absolute().parent / zones)} if zones else {}
+
     def values(self):
         """All that is planned, as JSON values; what a freeze keeps. Where the files are is no part of it, what is in them is."""
         values = _without_places(json.loads(json.dumps(asdict(self))))
@@ -172,6 +180,7 @@ class Plan:
                 if not question[key]:
                     del question[key]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
+        files.update({world.zones: file for world in self.worlds for file in self.zones_of(world).values()})
         return dict(values, world_files={name: hashlib.sha256(checked.read(file, LARGEST_WORLD)).hexdigest() for name, file in files.items()})
 
     def hash(self):
@@ -180,7 +189,7 @@ class Plan:
 
 def _without_places(value):
     if isinstance(value, dict):
-        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) != ("scope", "")}
+        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) not in (("scope", ""), ("zones", ""))}
     return [_without_places(below) for below in value] if isinstance(value, list) else value
 
 

@@ -54,7 +54,7 @@ class LiveRunner:
             words.update(rviz="false", **person_of(participant, "operator/person/"))
         else:
             words["speech"] = "true"
-        return {**words, **place_of(plan, participant, step, attempt)}
+        return {**words, **plan.zones_of(attempt), **place_of(plan, participant, step, attempt)}
 
     def _learnt(self, participant, attempt):
         plan = self.study.plan
@@ -185,7 +185,7 @@ class LoopRunner:
         words = plan.condition(step.condition).arguments()
         command = [self.program, f"--world={plan.world_file(attempt) or attempt.world}", f"--seeds={attempt.seed}", f"--limit={step.limit or plan.limit:.0f}",
                    f"--profile={words.pop('profile')}", f"--out={folder}", "--records=all"]
-        words.update(person_of(participant, "person/"), **place_of(plan, participant, step, attempt))
+        words.update(person_of(participant, "person/"), **plan.zones_of(attempt), **place_of(plan, participant, step, attempt))
         words.update({"trial/participant": participant, "trial/version": self.version})
         parts = ("sim/", "nav/", "feedback/", "person/", "perception/", "trial/")
         command += [f"{name}:={value}" for name, value in words.items() if name.startswith(parts) and not name.startswith(("feedback/speaker", "feedback/mixer"))]

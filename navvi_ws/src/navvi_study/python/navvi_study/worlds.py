@@ -18,6 +18,7 @@ def drive(plan, trials_bench, jobs=2):
 
     def one(world):
         command = [str(trials_bench), f"--world={plan.world_file(world) or world.world}", f"--seeds={world.seed}", f"--limit={plan.limit:.0f}", "--csv"]
+        command += [f"{name}:={value}" for name, value in plan.zones_of(world).items()]
         result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
         rows = list(csv.DictReader(io.StringIO(result.stdout)))
         if result.returncode != 0 or len(rows) != 1:
@@ -44,7 +45,7 @@ def pictures(plan, draw):
     folder.mkdir(parents=True, exist_ok=True)
     files = {world: folder / f"{Path(world.world).stem}-{world.seed}.svg" for world in plan.worlds}
     for world, file in files.items():
-        draw(str(plan.world_file(world) or world.world), [f"seed:={world.seed}"], file)
+        draw(str(plan.world_file(world) or world.world), _words(plan, world), file)
     return [*files.values()]
 
 
@@ -55,11 +56,15 @@ def picture_for(plan, draw):
         svg = io.BytesIO()
         try:
             for one in known[:1]:
-                draw(str(plan.world_file(one) or one.world), [f"seed:={one.seed}"], svg, driven)
+                draw(str(plan.world_file(one) or one.world), _words(plan, one), svg, driven)
         except (StudyError, OSError):
             return b""
         return svg.getvalue()
     return picture
+
+
+def _words(plan, world):
+    return [f"seed:={world.seed}", *(f"{name}:={value}" for name, value in plan.zones_of(world).items())]
 
 
 def _turns(row):
