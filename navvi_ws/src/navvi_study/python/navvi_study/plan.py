@@ -116,6 +116,7 @@ class Plan:
     reserve: tuple
     steps: dict  # what the kinds of steps need, by key (steps/)
     lsl: bool
+    blind: bool  # reports have letters for the conditions until the analysis is frozen
     primary: Question
     secondary: tuple
     exposure: str  # what counts are divided by: a key of measures.EXPOSURES
@@ -173,8 +174,9 @@ class Plan:
         values.update({key: entry for key, entry in values.pop("steps").items() if entry or key in ALWAYS})
         values["minutes"] = {key: entry for key, entry in values["minutes"].items() if entry is not None or key in ALWAYS}
         del values["seed"]
-        if self.exposure == "trial":
-            del values["exposure"]
+        for key, usual in ("exposure", "trial"), ("blind", False):
+            if values[key] == usual:
+                del values[key]
         for question in (values["primary"], *values["secondary"]):
             for key in ("trials", "within", "effect", "sd"):
                 if not question[key]:

@@ -66,9 +66,9 @@ class Progress:
     def __init__(self, plan, rows):
         self.plan = plan
         self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
-        self.freezes = [row for row in rows if row["type"] == "freeze"]
+        self.freezes, self.analyses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis"))
         for row in rows:
-            if row["type"] != "freeze":
+            if row["type"] not in ("freeze", "analysis"):
                 getattr(self, "_" + row["type"])(row)
 
     def person(self, name):
