@@ -203,7 +203,7 @@ def test_zones_of_a_world_are_a_file_beside_the_plan_that_is_frozen_with_what_is
     (tmp_path / "bench").chmod(0o755)
     for seed, given in (1, str(file)), (2, None):
         attempt = progress.Attempt(step.name, 1, "easy", seed)
-        assert runner.LiveRunner(kept, "navvi", "close_trials").arguments("sub-01", step, attempt, tmp_path).get("nav/mesh/zones") == given
+        assert runner.LiveRunner(kept, "navvi", "close_trials").arguments("sub-01", step, attempt, tmp_path).get("zones") == given
         runner.LoopRunner(kept, tmp_path / "bench", "test").trial("sub-01", step, attempt, tmp_path, 0)
         assert (f" nav/mesh/zones:={file}" in calls.read_text().splitlines()[-1]) == bool(given)
     calls.unlink()

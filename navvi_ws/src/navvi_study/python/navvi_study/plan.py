@@ -28,21 +28,34 @@ class World:
     world: str
     seed: int
     zones: str = field(default="", compare=False)  # their file
+    jobs: str = field(default="", compare=False)  # the file of the job that is done there
 
     def __str__(self):
         return f"{self.world} {self.seed}"
 
 
 def worlds_of(part, folder):
-    """`{world: NAME, seeds: [...], zones: FILE}`; files are looked for beside the plan."""
-    world, zones = part.take("world", checked.text), part.take("zones", checked.text, "")
-    for key, name in ("world", world if world.endswith(WORLD_FILES) else ""), ("zones", zones):
+    """`{world: NAME, seeds: [...], zones: FILE, jobs: FILE}`; files are looked for beside the plan."""
+    world, zones, jobs = part.take("world", checked.text), part.take("zones", checked.text, ""), part.take("jobs", checked.text, "")
+    for key, name in ("world", world if world.endswith(WORLD_FILES) else ""), ("zones", zones), ("jobs", jobs):
         if name and not (folder / name).is_file():
             names = ", and names of ./navvi world list" if key == "world" else ""
             raise part.error(key, f"is \"{name}\", and {folder / name} is not a file; allowed are files beside the plan{names}")
-    worlds = tuple(World(world, seed, zones) for seed in part.take("seeds", checked.numbered(checked.whole(0, 2**31 - 1))))
+    if jobs:
+        places_in(folder / jobs)
+    worlds = tuple(World(world, seed, zones, jobs) for seed in part.take("seeds", checked.numbered(checked.whole(0, 2**31 - 1))))
     part.done()
     return worlds
+
+
+def places_in(file):
+    """(x, y, name, what is done there) of each place of a job, m in map. Raises StudyError."""
+    places = []
+    for part in checked.load(file, "places").items("places"):
+        places.append((*(part.take(key, checked.number(-1e4, 1e4)) for key in "xy"), part.take("name", checked.text),
+                       part.take("do", checked.one_of("drive", "pick", "drop", "scan"), "drive")))
+        part.done()
+    return places
 
 
 @dataclass(frozen=True)
@@ -163,10 +176,21 @@ class Plan:
         """The file of a world that is no name; None for a name."""
         return Path(self.file).absolute().parent / world.world if world.world.endswith(WORLD_FILES) else None
 
-    def zones_of(self, world):
-        """Their file, as an argument of ./navvi and of a batch; none without zones."""
-        zones = next((one.zones for one in self.worlds if (one.world, one.seed) == (world.world, world.seed)), "")
-        return {"nav/mesh/zones": str(Path(self.file).absolute().parent / zones)} if zones else {}
+    def beside(self, world):
+        """The files of its zones and of its job, as far as it has them, by argument of ./navvi run."""
+        one = next((one for one in self.worlds if (one.world, one.seed) == (world.world, world.seed)), None)
+        return {key: str(Path(self.file).absolute().parent / name) for key in ("zones", "jobs") if one and (name := getattr(one, key))}
+
+    def places(self, world):
+        """Those of its job, in their order; none without a job."""
+        return [place for key, file in self.beside(world).items() if key == "jobs" for place in places_in(file)]
+
+    def legs(self, world):
+        """The words of trials_bench for each leg of a trial, that is one without a job; each begins where the one before ends."""
+        words = [f"nav/mesh/zones:={file}" for key, file in self.beside(world).items() if key == "zones"]
+        places = [f"{x:g},{y:g}" for x, y, _, _ in self.places(world)]
+        starts = [[]] + [[f"sim/start:={place},0"] for place in places]
+        return [[*words, *start, f"sim/goal:={place}"] for start, place in zip(starts, places)] or [words]
 
     def values(self):
         """All that is planned, as JSON values; what a freeze keeps. Where the files are is no part of it, what is in them is."""
@@ -182,7 +206,7 @@ class Plan:
                 if not question[key]:
                     del question[key]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
-        files.update({world.zones: file for world in self.worlds for file in self.zones_of(world).values()})
+        files.update({getattr(world, key): file for world in self.worlds for key, file in self.beside(world).items()})
         return dict(values, world_files={name: hashlib.sha256(checked.read(file, LARGEST_WORLD)).hexdigest() for name, file in files.items()})
 
     def hash(self):
@@ -191,7 +215,7 @@ class Plan:
 
 def _without_places(value):
     if isinstance(value, dict):
-        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) not in (("scope", ""), ("zones", ""))}
+        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) not in (("scope", ""), ("zones", ""), ("jobs", ""))}
     return [_without_places(below) for below in value] if isinstance(value, list) else value
 
 

@@ -215,11 +215,11 @@ class Study:
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
 
-    def summary(self, participant, attempt):
-        """The summary of an attempt's trial; empty where none was written."""
+    def summary(self, participant, attempt, trial=""):
+        """The summary of an attempt's trial, or of that leg of it; empty where none was written."""
         if not attempt.trial:
             return {}
-        return read_summary(self.attempt_folder(participant, attempt.step, attempt.number) / attempt.trial)
+        return read_summary(self.attempt_folder(participant, attempt.step, attempt.number) / (trial or attempt.trial))
 
     def finish_erasing(self):
         """What was to be deleted is deleted, also after a crash amid that."""
