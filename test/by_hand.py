@@ -6,13 +6,15 @@ HALL = ("name: hall\npreset: easy\nlayout: {length: 11, width: 13, rows: 1, bloc
 
 
 def session(env, folder, person, results, *words):
-    """A session in a small hall, with a trial for each of `results`, words of its summary."""
+    """A session in a small hall, with a trial for each of `results`, words of its summary. Returns what the person heard and pressed."""
     layout = folder / "hall.yaml"
     layout.write_text(HALL)
     with Programs(env, folder / "log") as programs:
         programs.launch("live.launch", f"operator:={'auto' if person == 'auto' else 'keyboard'}", f"world:={layout}", "once:=false", "speech:=false",
                         "feedback_parameters:={listener: topic}", "sim_parameters:={scenario: {min_route: 4, max_route: 7}}", f"out:={folder}", "limit:=300", *words)
-        print(programs.person("person.py", person, seconds=600))
+        told = programs.person("person.py", *person.split(","), seconds=600)
+        print(told)
     assert "was ended by signal" not in (folder / "log").read_text()
     found = [path.read_text().splitlines()[1] for path in sorted(folder.glob("trial-*/summary.csv"))]
     assert len(found) == len(results) and all(word in row for row, word in zip(found, results)), found
+    return told

@@ -337,7 +337,7 @@ def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_c
 
 
 def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):
-    settings = "feedback/speaker/rate%3d220 nav/mesh/climb%3d0.1 nav/mesh/x%3d$(eval) sim/seed%3d3"
+    settings = "feedback/speaker/rate%3d220 nav/mesh/climb%3d0.1 nav/mesh/x%3d$(eval) nav/mesh/zones%3d/home/me/zones.yaml sim/seed%3d3"
     (tmp_path / "journal.csv").write_text(f"t,1,0,0,NODE,a=b,00000000\nt,2,0,0,TRIAL_START,world=busy;voice=en-us;settings={settings},00000000\n")
     assert replay.recorded(tmp_path) == {"speaker": "{rate: 220, voice: en-us}", "mesh": "{climb: 0.1}"}
     assert replay.recorded(tmp_path / "none") == {"speaker": "{}", "mesh": "{}"}

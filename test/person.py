@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A person for tests, in a process of its own: `person.py auto` with a pad as joy_node gives it, `person.py keyboard` with keys by xdotool,
-`person.py panel` with those and the panel's in RViz. The first two drive to three goals: the task's, one that it chooses from the spoken menu by name, and the one before that. It hears the cues, and the
+`person.py panel` with those and the panel's in RViz, `person.py job PLACE` with keys through a job, that place first. The first two drive to three goals: the task's, one that it chooses from the spoken menu by name, and the one before that. It hears the cues, and the
 hand of the simulated operator, which hears them too, holds the stick. Prints what is heard and pressed."""
 import subprocess
 import sys
@@ -65,6 +65,20 @@ class Person(Hands):
             self.drive()
 
 
+class AtWork(Person):
+    """Drives to four places of a job, the one that is named first, and confirms what is done at each."""
+
+    def run(self):
+        asks = ("press_start", "press_enter", "press_pick", "press_drop", "press_scan")
+        self.wait_for(asks, 60)
+        self.choose(sys.argv[2])
+        for _ in range(4):
+            self.press("start")
+            self.wait_for(("arrived",), 200)
+            self.wait_for(asks, 60)
+        Hands.press(self, "start")
+
+
 WAY = ("trial_begins", "start", "start_distance", "direction", "straight", "straight_then", "slight", "turn_now", "turn_ahead")
 
 
@@ -118,7 +132,7 @@ class AtThePanel(Person):
 
 if __name__ == "__main__":
     rospy.init_node("person", disable_rostime=True)
-    person = AtThePanel(True) if sys.argv[1] == "panel" else Person(sys.argv[1] == "keyboard")
+    person = {"panel": AtThePanel, "job": AtWork}.get(sys.argv[1], Person)(sys.argv[1] != "auto")
     try:
         person.run()
     finally:

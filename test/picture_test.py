@@ -16,7 +16,8 @@ pytestmark = pytest.mark.accessibility
 VISIONS = ["high_contrast", "yellow_on_black", "large", "color_blind"]
 # The least share of a thing's outline that stands out. Seen forward, boards and boxes are before some, and end there with edges of their own.
 LEAST = {"chase": 0.97, "forward": 0.93}
-KINDS = {"path": ["path"], "goal": ["goal"], "goods": ["box", "pedestal"], "movers": ["worker", "forklift", "pallet_robot", "robot"]}
+KINDS = {"path": ["path"], "goal": ["goal"], "goods": ["box", "pedestal"], "movers": ["worker", "forklift", "pallet_robot", "robot"],
+         "zones": ["zone"]}
 THINGS = sum(KINDS.values(), [])
 NEAR = 12  # px; a thing's own edge is within, or within twice that where all is drawn twice as wide
 
@@ -82,7 +83,7 @@ class Picture(Programs):
         frames = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         frames.publish([transform(*edge, 0.0, rospy.Time()) for edge in (("map", "odom"), ("odom", "base_link"))])
         self.topics = {name: rospy.Publisher(name, MarkerArray, queue_size=10, latch=True)
-                       for name in ("/navvi/scene", "/navvi/scene_moving", "/navvi/markers")}
+                       for name in ("/navvi/scene", "/navvi/scene_moving", "/navvi/markers", "/navvi/zones")}
         self.frames = frames
         self.obstacles = rospy.Publisher("/navvi/obstacles", Obstacles, queue_size=1, latch=True)
         if self.filled:
@@ -132,7 +133,10 @@ class Picture(Programs):
         guide = [marker("path", 0, M.LINE_STRIP, way, (0.38, 0, 0)), marker("path", 1, M.LINE_STRIP, way, (0.22, 0, 0)),
                  marker("goal", 0, M.CYLINDER, scale=(0.5, 0.5, 2.5), at=(11.5, 3, 1.25)),
                  marker("goal", 1, M.LINE_STRIP, ring, (0.15, 0, 0))]
-        return {"/navvi/scene": still, "/navvi/scene_moving": moving, "/navvi/markers": guide}
+        closed = [(x, y, 0.02) for x, y in ((2, 0.8), (3.4, 0.8), (3.4, 1.6), (2, 1.6), (2, 0.8))]
+        slow = [(x, y, 0.02) for y in (-3.0, -2.2) for x in numpy.arange(1.25, 4.0, 0.5)]
+        zones = [marker("zone", 0, M.LINE_STRIP, closed, (0.12, 0, 0)), marker("zone", 1, M.LINE_LIST, slow, (0.12, 0, 0))]
+        return {"/navvi/zones": zones, "/navvi/scene": still, "/navvi/scene_moving": moving, "/navvi/markers": guide}
 
     def show(self, things):
         for topic, markers in self.scene().items():

@@ -2,6 +2,7 @@
 import collections
 import hashlib
 import itertools
+import json
 
 import pytest
 
@@ -186,6 +187,34 @@ def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
     assert words["feedback/haptics/enabled"] == "false" and words["feedback/sounds/enabled"] == "true"
     assert words["feedback/locked"] == words["trial/locked"] == "true"
     assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
+
+
+def test_zones_of_a_world_are_a_file_beside_the_plan_that_is_frozen_with_what_is_in_it(tmp_path):
+    assert "zones" not in json.dumps(small(tmp_path).values()), "plans without keep their hash"
+    with_zones = ("a: {world: easy", "a: {zones: own.yaml, world: easy")
+    with pytest.raises(StudyError, match="\"worlds/sets/a/zones\" is \"own.yaml\", and .* is not a file; allowed are files beside the plan.$"):
+        small(tmp_path, with_zones)
+    file = tmp_path / "own.yaml"
+    file.write_text("- {name: dock, kind: keep_out, corners: [0, 0, 1, 0, 1, 1]}\n")
+    kept = frozen(tmp_path, with_zones)
+    step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.kind == "trial")
+    calls = tmp_path / "calls"
+    (tmp_path / "bench").write_text(f"#!/bin/sh\necho \"$@\" >> {calls}; echo 'result\nreached'\n")
+    (tmp_path / "bench").chmod(0o755)
+    for seed, given in (1, str(file)), (2, None):
+        attempt = progress.Attempt(step.name, 1, "easy", seed)
+        assert runner.LiveRunner(kept, "navvi", "close_trials").arguments("sub-01", step, attempt, tmp_path).get("zones") == given
+        runner.LoopRunner(kept, tmp_path / "bench", "test").trial("sub-01", step, attempt, tmp_path, 0)
+        assert (f" nav/mesh/zones:={file}" in calls.read_text().splitlines()[-1]) == bool(given)
+    calls.unlink()
+    assert worlds.drive(kept.plan, tmp_path / "bench", 1)
+    assert sum("nav/mesh/zones" in line for line in calls.read_text().splitlines()) == 1
+    drawn = []
+    worlds.pictures(kept.plan, lambda world, words, path: drawn.append(words))
+    assert drawn[:2] == [["seed:=1", f"nav/mesh/zones:={file}"], ["seed:=2"]]
+    file.write_text("- {name: dock, kind: keep_out, corners: [0, 0, 2, 0, 2, 2]}\n")
+    with pytest.raises(StudyError, match="world_files/own.yaml: .* is now"):
+        study.Study.of(kept.plan.file).require_frozen()
 
 
 def test_a_new_kind_of_step_is_one_class(tmp_path, monkeypatch):

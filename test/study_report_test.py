@@ -1,4 +1,5 @@
 """Studies without a session: the report, and the models behind it."""
+import hashlib
 import html.parser
 import re
 import warnings
@@ -10,8 +11,9 @@ import pytest
 import scipy.stats
 
 from small_study import Driver, begin, frozen, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
-from navvi_study import analysis, figures, report, study, table, ways
+from navvi_study import actions, analysis, figures, preregistration, report, study, table, ways
 from navvi_study.analysis import MODELS, Analysis, Contrast
+from navvi_study.errors import StudyError
 
 
 class Page(html.parser.HTMLParser):
@@ -196,6 +198,29 @@ def test_a_blinded_report_has_letters_and_tells_no_condition(reported):
     assert "report small.yaml --blind" in text and {row["condition"] for row in blinded.answers("sub-01")} == {"A", "B"}
     assert sorted(kept.blinded().letters.items()) == sorted(blinded.letters.items()), "the key is kept"
     assert kept.plan.values() == study.Study(kept.plan).plan.values() and blinded.progress().complete(blinded.progress().person("sub-01"))
+
+
+def test_a_blind_plan_names_no_condition_before_its_analysis_is_frozen(tmp_path, monkeypatch):
+    monkeypatch.setitem(actions.TOOLS, "draw", lambda *words: None)
+    monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    monkeypatch.setattr(report, "maps", lambda *given: [])
+    assert "blind" not in frozen(tmp_path / "plain").plan.values(), "plans without keep their hash"
+    kept = driven(tmp_path, ("limit: 60", "limit: 60\nblind: true"))
+    assert "letters for the conditions until" in preregistration.write(kept).read_text()
+    args = type("Args", (), {"plan": kept.plan.file, "only": None, "blind": False, "bids": True})
+    actions.report(args)
+    for action in actions.table, actions.export:
+        with pytest.raises(StudyError, match="unblind"):
+            action(args)
+    assert not (kept.folder / "report.html").exists() and not list(kept.folder.glob("*.csv"))
+    assert not {"full", "plain"} & set(re.findall(r"\w+", Page((kept.folder / "report-blind.html").read_text()).text))
+    actions.unblind(args)
+    text = Page((kept.folder / "report.html").read_text()).text
+    assert hashlib.sha256((kept.folder / "report-blind.html").read_bytes()).hexdigest() in text and "than in plain" in text
+    assert (kept.folder / "trials.csv").exists() and not actions.table(args)
+    with pytest.raises(StudyError, match="nothing to unblind"):
+        actions.unblind(args)
 
 
 def test_the_same_study_gives_the_same_report(reported):

@@ -8,8 +8,8 @@ import signal
 
 import pytest
 
-from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, work, write_record  # noqa: F401
-from navvi_study import actions, export, journal, overview, progress, questionnaire, record, runner, schedule, study, table, verify
+from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
+from navvi_study import actions, export, journal, overview, progress, questionnaire, record, report, runner, schedule, study, table, verify, worlds
 from navvi_study.errors import StudyError
 from navvi_study.steps import probe
 
@@ -55,8 +55,74 @@ def test_a_file_that_changed_after_its_trial_is_named(work):
     (trial / "summary.csv").write_text((trial / "summary.csv").read_text().replace("20.0", "19.0"))
     sentences, bad = verify.verify(work.study, work.study.progress(), "true")
     assert bad == 1 and "files differ: summary.csv," in sentences[0]
-    attempt.sums = {}
-    assert verify._files(trial, attempt) == "no sums", "as in journals of before"
+    assert verify._files(trial, {}) == "no sums", "as in journals of before"
+
+
+JOB = ("a: {world: easy", "a: {jobs: round.yaml, world: easy")
+
+
+class Legs(Driver):
+    """A summary a leg in worlds with a job: as many as `results` has, in turn."""
+
+    def trial(self, participant, step, attempt, folder, lock):
+        self.driven.append((attempt.world, attempt.seed))
+        for at, result in enumerate(self.results.pop(0) if self.results else ["reached"] * (2 if attempt.seed == 1 else 1), 1):
+            write_summary(folder / f"trial-{len(self.driven)}-{at}", result, elapsed=10.0 * at)
+
+
+def job(folder):
+    (folder / "round.yaml").write_text("- {name: packing table, x: 4, y: -6.2, do: pick}\n- {name: gate 4, x: 7, y: -3}\n")
+    return frozen(folder, JOB)
+
+
+def test_a_job_is_a_trial_with_a_row_a_leg_in_tables_and_report(tmp_path):
+    kept = job(tmp_path)
+    assert rest(begin(kept, driver=Legs))
+    rows = table.trials(kept, kept.progress())
+    assert [[row.get(name, "n/a") for name in ("leg", "place", "do", "elapsed_s", "counts")] for row in rows] == [
+        ["1", "packing table", "pick", "10.0", "yes"], ["2", "gate 4", "drive", "20.0", "yes"], ["n/a", "n/a", "n/a", "10.0", "yes"]]
+    assert rows[0]["trial"] != rows[1]["trial"] and report.legs(kept, kept.progress()) == [
+        ["full: 1. packing table, pick", 1, 1, "10"], ["full: 2. gate 4, drive", 1, 1, "20"]]
+    assert "Legs of jobs" in report.page(kept, kept.progress(), rehearsed=False)
+    sentences, bad = verify.verify(kept, kept.progress(), "true")
+    assert bad == 0 and len(sentences) == 3 and all("files equal" in sentence for sentence in sentences)
+    attempt = kept.progress().person("sub-01").attempts[0]
+    assert attempt.result == "reached" and attempt.collisions == 6 and kept.progress().find(f"sub-01/{rows[0]['trial']}")[1].step == attempt.step
+    next(tmp_path.glob("small/sub-01/*/trial-1-1/summary.csv")).write_text("changed")
+    assert "files differ: summary.csv" in verify.verify(kept, kept.progress(), "true")[0][0]
+
+
+@pytest.mark.parametrize("results, result, counts", [
+    (["timeout", "reached"], "timeout", True), (["reached", "aborted"], "aborted", False), (["reached"], "aborted", False), (["invalid"], "invalid", False)])
+def test_a_job_counts_where_each_of_its_legs_was_driven_to_its_end(tmp_path, results, result, counts):
+    kept = job(tmp_path)
+    begin(kept, results, driver=Legs).next("sub-01")
+    attempt = kept.progress().person("sub-01").attempts[0]
+    assert (attempt.result, attempt.counts, len(attempt.legs)) == (result, counts, len(results))
+
+
+def test_a_job_is_rehearsed_leg_by_leg_and_its_file_is_part_of_the_plan(tmp_path):
+    kept = job(tmp_path)
+    step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.kind == "trial")
+    bench = tmp_path / "trials_bench"
+    bench.write_text(f"#!/bin/sh\necho \"$@\" >> {tmp_path}/calls\nfor word in \"$@\"; do case $word in --out=*) mkdir -p ${{word#--out=}}/trial-easy-1 ;; esac; done\n"
+                     "echo result,shortest_path_m,elapsed_s,mover_proximity_count,turns_per_min; echo reached,4,10,1,6\n")
+    bench.chmod(0o755)
+    runner.LoopRunner(kept, bench, "test").trial("sub-01", step, progress.Attempt(step.name, 1, "easy", 1), tmp_path / "out", 0)
+    first, second = (tmp_path / "calls").read_text().splitlines()
+    assert "sim/goal:=4,-6.2" in first and "sim/start" not in first and "sim/start:=4,-6.2,0 sim/goal:=7,-3" in second
+    assert sorted(path.name for path in (tmp_path / "out").glob("trial-*")) == ["trial-easy-1-leg-01", "trial-easy-1-leg-02"]
+    rows = worlds.drive(kept.plan, bench, 1)
+    assert rows[kept.plan.worlds[0]] == {"result": "reached", "shortest_path_m": 8, "elapsed_s": 20, "mover_proximity_count": 2, "turns_per_min": 6}
+    words = runner.LiveRunner(kept, "navvi", "close").arguments("sub-01", step, progress.Attempt(step.name, 1, "easy", 1), tmp_path)
+    assert words["jobs"] == str(tmp_path / "round.yaml") and words["goal"] == "4,-6.2"
+    (tmp_path / "round.yaml").write_text("- {name: gate 4, x: 7, y: -3}\n")
+    with pytest.raises(StudyError, match="world_files/round.yaml"):
+        study.Study.of(kept.plan.file).require_frozen()
+    for text, says in ("[]", "at least one entry"), ("- {name: gate 4, x: 7}", "y\" is missing"), ("- {name: a, x: 1, y: 2, do: eat}", "drive, pick, drop, scan"):
+        (tmp_path / "round.yaml").write_text(text)
+        with pytest.raises(StudyError, match=says):
+            small(tmp_path, JOB)
 
 
 def test_a_trial_whose_bag_is_recorded_as_bad_agrees_without_one(tmp_path):

@@ -1,5 +1,6 @@
 """Zones of a session: who drives is led round them or held before them, and hears their names."""
 import numpy
+import rosbag
 
 from sessions import WORLD, navvi, rows_of, summary
 
@@ -14,6 +15,8 @@ def test_a_session_with_zones_keeps_out_of_them_and_names_them(session, tmp_path
     rows = rows_of(trial / "journal.csv")
     assert any("zone_slow" in row["fields"] and row["type"] == "CUE" for row in rows), [row["fields"] for row in rows if row["type"] == "CUE"]
     assert "slow zone, dock" in next(begun.folder.glob("session-*.log")).read_text()
+    with rosbag.Bag(str(trial / "trial.bag")) as bag:
+        assert {"/navvi/zone", "/navvi/zones"} <= set(bag.get_type_and_topic_info().topics)
     track = numpy.load(trial / "track.npy")
     speeds = abs(track["speed"][abs(track["x"]) < 1.0])
     assert len(speeds) > 50 and speeds.max() < 0.33, speeds

@@ -134,7 +134,8 @@ def recorded(trial):
     speaker = {name: settings.get(f"feedback/speaker/{name}", "") for name in ("rate", "pitch", "volume")}
     if fields.get("voice", "unknown") != "unknown":
         speaker["voice"] = fields["voice"]
-    mesh = {name[len("nav/mesh/"):]: value for name, value in settings.items() if name.startswith("nav/mesh/")}
+    # Zones are in the bag; their file may have changed.
+    mesh = {name[len("nav/mesh/"):]: value for name, value in settings.items() if name.startswith("nav/mesh/") and name != "nav/mesh/zones"}
     return {"speaker": yaml(speaker), "mesh": yaml(mesh)}
 
 

@@ -37,7 +37,8 @@ def _draw(world, words, path, driven=()):
     from navvi_cli import maps
     from navvi_cli.commands.world import verdict_on
     try:
-        found = verdict_on(world, words, drawing=True)
+        nav = [word for word in words if word.startswith("nav/")]
+        found = verdict_on(world, [word for word in words if word not in nav], nav_words=[word.removeprefix("nav/") for word in nav], drawing=True)
         maps.save(maps.world(found.world, found.caption(), None if found.refusal else found.way, driven), path)
     except Failure as problem:
         raise StudyError(problem.sentence or f"{world} cannot be drawn.") from None

@@ -29,6 +29,7 @@ class Zones {
   explicit Zones(const std::string& file);
 
   [[nodiscard]] bool empty() const { return zones_.empty(); }
+  [[nodiscard]] const std::vector<Zone>& all() const { return zones_; }
   /// Makes obstacles of all cells that zones touch into which nobody may drive.
   void close(MapSurvey& survey) const;
   /// What is allowed to a robot there. Before a zone it is let drive so fast that it comes to rest

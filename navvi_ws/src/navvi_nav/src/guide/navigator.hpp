@@ -97,6 +97,7 @@ class Navigator {
   [[nodiscard]] bool has_map() const { return map_.floor != nullptr; }
   /// What zones allow where the robot is; nullopt without zones, or a fresh pose.
   [[nodiscard]] std::optional<navvi_types::ZoneState> zone(double time) const;
+  [[nodiscard]] const map::Zones& zones() const { return zones_; }
   /// True if the obstacles were given up as too old; cleared by the next ones.
   [[nodiscard]] bool obstacles_lost() const { return observation_.obstacles_lost(); }
   /// m, z of the floor in map; 0 before there is a map.

@@ -8,6 +8,8 @@ namespace {
 constexpr std::uint32_t kMaxGridSide = 1000000;  // cells
 constexpr float kMeshAlpha = 0.35F;
 constexpr double kAboveFloor = 0.02;  // m
+constexpr double kBorder = 0.12;      // m, of a zone
+constexpr double kDash = 0.5;         // m, of a slow one, and as much between two
 
 }  // namespace
 
@@ -66,6 +68,38 @@ visualization_msgs::MarkerArray to_msg(const mesh::Mesh& mesh, double z, const s
     }
   }
   out.markers.push_back(std::move(marker));
+  return out;
+}
+
+visualization_msgs::MarkerArray to_msg(const map::Zones& zones, double z, const std::string& frame,
+                                       const ros::Time& stamp) {
+  using visualization_msgs::Marker;
+  visualization_msgs::MarkerArray out;
+  for (const map::Zone& zone : zones.all()) {
+    const bool slow = zone.kind == navvi_types::ZoneState::Kind::slow;
+    Marker marker;
+    marker.header.frame_id = frame;
+    marker.header.stamp = stamp;
+    marker.ns = "zone";
+    marker.id = static_cast<int>(out.markers.size());
+    marker.type = slow ? Marker::LINE_LIST : Marker::LINE_STRIP;
+    marker.pose.orientation.w = 1.0;
+    marker.scale.x = kBorder;
+    marker.color.r = slow ? 0.0F : 1.0F;
+    marker.color.g = marker.color.a = 1.0F;
+    const auto add = [&](const Point& at) {
+      marker.points.push_back(navvi_types::point_msg({at.x, at.y}, z + kAboveFloor));
+    };
+    for (std::size_t i = 0; i < zone.corners.size(); ++i) {
+      const Point from = zone.corners[i];
+      const Point edge = zone.corners[(i + 1) % zone.corners.size()] - from;
+      const double dashes = slow ? std::max(1.0, std::round(0.5 * norm(edge) / kDash)) : 0.0;
+      if (!slow) add(from);
+      for (double k = 0.25; k < dashes; k += 0.5) add(from + k / dashes * edge);
+    }
+    if (!slow) add(zone.corners.front());
+    out.markers.push_back(std::move(marker));
+  }
   return out;
 }
 

@@ -20,5 +20,9 @@ namespace navvi_nav::node {
 [[nodiscard]] visualization_msgs::MarkerArray to_msg(const mesh::Mesh& mesh, double z,
                                                      const std::string& frame,
                                                      const ros::Time& stamp);
+/// The borders of zones on the floor: a line of closed ones, dashes of slow ones.
+[[nodiscard]] visualization_msgs::MarkerArray to_msg(const map::Zones& zones, double z,
+                                                     const std::string& frame,
+                                                     const ros::Time& stamp);
 
 }  // namespace navvi_nav::node

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "temp_folder.hpp"
+
 namespace navvi_nav::node {
 namespace {
 
@@ -44,6 +46,28 @@ TEST(MsgConversion, says_why_a_map_cannot_be_used) {
   EXPECT_EQ(error_of(msg, "world"), "it is in frame 'map', not 'world'");
   msg.data.resize(map::kMaxMapBytes + 1);
   EXPECT_EQ(error_of(msg, "map"), "it is larger than 64 MiB");
+}
+
+TEST(MsgConversion, draws_a_closed_zone_with_one_line_and_a_slow_one_with_dashes) {
+  const navvi_test::TempFolder folder;
+  const map::Zones zones(
+      folder.write("zones.yaml",
+                   "- {name: press, kind: keep_out, corners: [0, 0, 4, 0, 4, 2]}\n"
+                   "- {name: lane, kind: slow, speed: 0.4, corners: [0, 0, 4, 0, 4, 0.1]}\n"));
+  const auto markers = to_msg(zones, 1.0, "map", ros::Time(3.0)).markers;
+  ASSERT_EQ(markers.size(), 2U);
+  using visualization_msgs::Marker;
+  EXPECT_EQ(markers[0].type, Marker::LINE_STRIP);
+  ASSERT_EQ(markers[0].points.size(), 4U);
+  EXPECT_EQ(markers[0].points.front(), markers[0].points.back());
+  EXPECT_EQ(markers[0].points[2].y, 2.0);
+  EXPECT_NEAR(markers[0].points[0].z, 1.02, 1e-9);
+  EXPECT_EQ(markers[1].type, Marker::LINE_LIST);
+  ASSERT_EQ(markers[1].points.size(), 2U * (4 + 1 + 4)) << "dashes of 0.5 m, one at least";
+  EXPECT_NEAR(markers[1].points[0].x, 0.25, 1e-9);
+  EXPECT_NEAR(markers[1].points[1].x, 0.75, 1e-9);
+  EXPECT_NE(markers[0].id, markers[1].id);
+  EXPECT_EQ(to_msg(map::Zones(), 0.0, "map", ros::Time()).markers.size(), 0U);
 }
 
 }  // namespace

@@ -74,8 +74,10 @@ class NavNode {
         mesh_throttle_(kMeshPeriod) {
     path_ = node.advertise<nav_msgs::Path>("navvi/path", 1, true);
     guidance_ = node.advertise<navvi_msgs::Guidance>("navvi/guidance", 10);
-    if (!config.navigator.planner.mesh.zones.empty())
+    if (!config.navigator.planner.mesh.zones.empty()) {
       zone_ = node.advertise<navvi_msgs::Zone>("navvi/zone", 1);
+      borders_ = node.advertise<visualization_msgs::MarkerArray>("navvi/zones", 1, true);
+    }
     mesh_ = node.advertise<visualization_msgs::MarkerArray>("navvi/navmesh", 1, true);
     subscribers_ = {
         node.subscribe("octomap_binary", 1, &NavNode::on_map, this),
@@ -238,6 +240,9 @@ class NavNode {
       report(*answer);
       navigator_.deliver(*answer, now);
       publish_mesh(*answer);
+      if (answer->map_taken && borders_)
+        borders_.publish(to_msg(navigator_.zones(), navigator_.floor_height(), config_.map_frame,
+                                ros::Time::now()));
     }
     const bool lost_before = navigator_.obstacles_lost();
     if (std::optional<plan::PlanRequest> request = navigator_.update(now)) {
@@ -310,7 +315,7 @@ class NavNode {
   std::optional<tf2_ros::StaticTransformBroadcaster> frames_;
   ros::Publisher path_;
   ros::Publisher guidance_;
-  ros::Publisher zone_;  ///< none without zones
+  ros::Publisher zone_, borders_;  ///< none without zones
   ros::Publisher goals_;
   std::optional<GoalAction> action_;
   ros::Publisher mesh_;

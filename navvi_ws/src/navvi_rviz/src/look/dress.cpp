@@ -166,6 +166,7 @@ class Dresser {
     if (marker.ns == "stop" && !marker.points.empty())
       return ring(marker, marker.points.front().z);
     if (marker.ns == "turn") return arrow(marker);
+    if (marker.ns == "zone" && !marker.points.empty()) return border(marker);
     if (marker.ns == "robot" && marker.type == Marker::CYLINDER) return robot(marker);
     return knows(marker) ? recolored(marker) : marker;
   }
@@ -243,12 +244,28 @@ class Dresser {
 
   /// \param height  m, above the floor
   [[nodiscard]] Marker ring(const Marker& marker, double height) const {
-    std::vector<Eigen::Vector2d> line;
-    for (const geometry_msgs::Point& at : marker.points) line.emplace_back(at.x, at.y);
+    return line(marker, marker.points.size(), height, vision_.bright);
+  }
+
+  /// Of a zone: one line of a closed one, dashes of a slow one.
+  [[nodiscard]] Marker border(const Marker& marker) const {
+    const std::size_t most = marker.type == Marker::LINE_LIST ? 2 : marker.points.size();
+    return line(marker, most, marker.points.front().z, fill(marker));
+  }
+
+  /// A flat line with dark edges, or several of so many points.
+  [[nodiscard]] Marker line(const Marker& marker, std::size_t most, double height,
+                            const Color& color) const {
     Marker list = triangles(marker);
     const double half = 0.5 * vision_.width * marker.scale.x;
-    add_borders(line, half, half + kEdge, height, vision_.dark, list);
-    add_ribbon(line, -half, half, height, vision_.bright, list);
+    std::vector<Eigen::Vector2d> line;
+    for (const geometry_msgs::Point& at : marker.points) {
+      line.emplace_back(at.x, at.y);
+      if (line.size() < most) continue;
+      add_borders(line, half, half + kEdge, height, vision_.dark, list);
+      add_ribbon(line, -half, half, height, color, list);
+      line.clear();
+    }
     return list;
   }
 

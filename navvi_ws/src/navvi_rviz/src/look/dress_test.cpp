@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace navvi_rviz::look {
 namespace {
@@ -136,6 +137,36 @@ TEST(Dress, the_turn_has_a_bright_edge_in_a_dark_one) {
     for (const auto& color : dressed(turn, name.c_str()).colors) greens.insert(color.g);
     const Vision& vision = *find_vision(name);
     EXPECT_EQ(greens, (std::set<float>{vision.dark.g, vision.bright.g, vision.fill.at("turn").g}));
+  }
+}
+
+TEST(Dress, a_closed_zone_has_one_border_and_a_slow_one_dashes_of_another_colour) {
+  for (const std::string& name : vision_names()) {
+    const Vision& vision = *find_vision(name);
+    std::set<std::tuple<float, float, float>> fills;
+    for (const int type : {Marker::LINE_STRIP, Marker::LINE_LIST}) {
+      Marker zone = marker("zone", type);
+      zone.scale.x = 0.12;
+      zone.points.resize(6);
+      for (std::size_t i = 0; i < 6; ++i) {
+        zone.points[i].x = static_cast<double>(i);
+        zone.points[i].z = 1.5;
+      }
+      const Marker result = dressed(zone, name.c_str());
+      double covered = 0.0;  // m, of the line's own colour
+      for (std::size_t i = 0; i < result.colors.size(); ++i) {
+        EXPECT_EQ(result.points[3 * i].z, 1.5) << "the floor of a robot may be anywhere";
+        const auto& color = result.colors[i];
+        if (color == color_msg(vision.dark)) continue;
+        fills.insert({color.r, color.g, color.b});
+        EXPECT_GE(contrast({color.r, color.g, color.b}, vision.fill.at("floor")), 4.5) << name;
+        covered += 0.5 * std::abs(result.points[3 * i].x - result.points[3 * i + 1].x) +
+                   0.5 * std::abs(result.points[3 * i + 1].x - result.points[3 * i + 2].x) +
+                   0.5 * std::abs(result.points[3 * i + 2].x - result.points[3 * i].x);
+      }
+      EXPECT_NEAR(covered, type == Marker::LINE_STRIP ? 10.0 : 6.0, 0.1) << name;
+    }
+    EXPECT_EQ(fills.size(), name == "yellow_on_black" ? 1U : 2U) << name;
   }
 }
 

@@ -19,7 +19,9 @@ Vision high_contrast() {
                  {"robot", kWhite},
                  {"path", {0.82F, 0.45F, 1.00F}},
                  {"goal", {1.00F, 0.33F, 0.25F}},
-                 {"turn", kBlack}};
+                 {"turn", kBlack},
+                 {"zone", kYellow},
+                 {"zone line", {0.10F, 0.80F, 0.60F}}};
   vision.edge = {{"shelf", {0.33F, 0.41F, 0.51F}},
                  {"wall", {0.40F, 0.40F, 0.40F}},
                  {"box", kYellow},
@@ -38,6 +40,7 @@ Vision yellow_on_black() {
   for (const char* ns : {"shelf", "wall", "box", "pedestal", "other"})
     vision.fill[ns] = {0.15F, 0.15F, 0.13F};
   for (const char* ns : {"box", "pedestal", "other"}) vision.edge[ns] = {0.90F, 0.90F, 0.80F};
+  vision.fill["zone"] = vision.fill["zone line"] = vision.edge["box"];
   vision.bright = vision.text = kYellow;
   return vision;
 }

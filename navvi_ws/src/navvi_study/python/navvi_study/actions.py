@@ -142,7 +142,7 @@ def run(args):
         while not _finished(study, name):
             if session.next(name) is None:
                 return 1
-    _write_report(study, args.only, rehearsed=False)
+    _write_report(study.blinded() if study.concealed else study, args.only, rehearsed=False)
     return 0
 
 
@@ -216,6 +216,7 @@ def table(args):
     """
     from . import table
     study = opened(args)
+    study.require_analysis()
     for path in table.write(study, study.progress(), _figures()):
         print(f"navvi: written: {path}")
 
@@ -250,6 +251,7 @@ def export(args):
     """
     from . import export
     study = opened(args)
+    study.require_analysis()
     print(f"navvi: written: {export.write(study, study.progress(), export.way_of)}")
 
 
@@ -264,7 +266,26 @@ def report(args):
     0: written. 2: a wrong plan, or a damaged record.
     """
     study = opened(args)
-    _write_report(study.blinded() if args.blind else study, args.only, rehearsed=False)
+    _write_report(study.blinded() if args.blind or study.concealed else study, args.only, rehearsed=False)
+
+
+@action(PLAN)
+def unblind(args):
+    """Freeze a blinded analysis; the reports that follow name the conditions.
+
+    For a plan with \"blind: true\", whose reports have letters until then. The
+    journal keeps the day and the SHA-256 of the blinded report of today.
+
+    Exit codes
+    0: frozen, and both reports are written. 2: not blinded, or frozen before.
+    """
+    from .journal import sum_of
+    study = opened(args)
+    if not study.concealed:
+        raise StudyError("there is nothing to unblind: the plan lacks \"blind: true\", or its analysis was frozen before.")
+    _write_report(study.blinded(), None, rehearsed=False)
+    study.journal.append("analysis", report=sum_of(study.folder / "report-blind.html"), version=TOOLS["version"]())
+    _write_report(study, None, rehearsed=False)
 
 
 @action(PLAN, ONLY)

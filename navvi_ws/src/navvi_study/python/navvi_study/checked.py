@@ -91,8 +91,8 @@ def read(path, most=LARGEST):
     return content
 
 
-def load(path):
-    """The file as a Section. Raises StudyError."""
+def load(path, below=""):
+    """The file as a Section, of a file that is a list with all of it `below` a key. Raises StudyError."""
     content = read(path)
     try:
         loader = _Loader(content.decode())
@@ -108,7 +108,7 @@ def load(path):
         mark, why = getattr(problem, "problem_mark", None), getattr(problem, "problem", None) or "a sign is not allowed in it"
         why = re.sub(r"'[^']{24,}'", "what stands there", why)  # an error cites no file
         raise StudyError(f"{path}:{mark.line + 1 if mark else 1}: cannot parse the YAML: {why}.") from None
-    return Section(path, "", values)
+    return Section(path, "", {below: values} if below else values)
 
 
 class Section:

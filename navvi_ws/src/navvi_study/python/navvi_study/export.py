@@ -47,7 +47,7 @@ def write(study, progress, read_way):
 
 
 def _trial(folder, row, attempt, run, study, read_way):
-    trial = study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial
+    trial = study.attempt_folder(row["participant"], attempt.step, attempt.number) / row["trial"]
     subject = _subject(row["participant"])
     place = folder / subject / f"ses-{row['session']}" / "motion"
     name = f"{subject}_ses-{row['session']}_task-drive"
@@ -66,7 +66,7 @@ def _trial(folder, row, attempt, run, study, read_way):
         "SpatialAxes": "FLS", "RotationRule": "right-hand", "RotationOrder": "XYZ", "ManufacturersModelName": "navvi_sim",
         "SoftwareVersions": row.get("version", "n/a")})
     events = [[event["onset_s"], event["duration_s"], event["trial_type"], event.get("robot_x_m", "n/a"), event.get("robot_y_m", "n/a"), event["detail"]]
-              for event in table.events_of(study, row["participant"], attempt)]
+              for event in table.events_of(study, row["participant"], attempt, row["trial"])]
     _tsv(place / f"{name}_{end}_events.tsv", ["onset", "duration", "trial_type", "robot_x", "robot_y", "detail"], events)
     _json(place / f"{name}_{end}_events.json", {**EVENTS, **{f"robot_{axis}": {"Description": "of the robot in map", "Units": "m"} for axis in "xy"},
                                                 "detail": {"Description": "kind of a cue, or reason, state, device or result"}})

@@ -27,19 +27,35 @@ class World:
     """What ./navvi run draws from a name, or a file, and a seed."""
     world: str
     seed: int
+    zones: str = field(default="", compare=False)  # their file
+    jobs: str = field(default="", compare=False)  # the file of the job that is done there
 
     def __str__(self):
         return f"{self.world} {self.seed}"
 
 
 def worlds_of(part, folder):
-    """`{world: NAME, seeds: [...]}`; a file is looked for beside the plan."""
-    world = part.take("world", checked.text)
-    if world.endswith(WORLD_FILES) and not (folder / world).is_file():
-        raise part.error("world", f"is \"{world}\", and {folder / world} is not a file; allowed are files beside the plan, and names of ./navvi world list")
-    worlds = tuple(World(world, seed) for seed in part.take("seeds", checked.numbered(checked.whole(0, 2**31 - 1))))
+    """`{world: NAME, seeds: [...], zones: FILE, jobs: FILE}`; files are looked for beside the plan."""
+    world, zones, jobs = part.take("world", checked.text), part.take("zones", checked.text, ""), part.take("jobs", checked.text, "")
+    for key, name in ("world", world if world.endswith(WORLD_FILES) else ""), ("zones", zones), ("jobs", jobs):
+        if name and not (folder / name).is_file():
+            names = ", and names of ./navvi world list" if key == "world" else ""
+            raise part.error(key, f"is \"{name}\", and {folder / name} is not a file; allowed are files beside the plan{names}")
+    if jobs:
+        places_in(folder / jobs)
+    worlds = tuple(World(world, seed, zones, jobs) for seed in part.take("seeds", checked.numbered(checked.whole(0, 2**31 - 1))))
     part.done()
     return worlds
+
+
+def places_in(file):
+    """(x, y, name, what is done there) of each place of a job, m in map. Raises StudyError."""
+    places = []
+    for part in checked.load(file, "places").items("places"):
+        places.append((*(part.take(key, checked.number(-1e4, 1e4)) for key in "xy"), part.take("name", checked.text),
+                       part.take("do", checked.one_of("drive", "pick", "drop", "scan"), "drive")))
+        part.done()
+    return places
 
 
 @dataclass(frozen=True)
@@ -113,6 +129,7 @@ class Plan:
     reserve: tuple
     steps: dict  # what the kinds of steps need, by key (steps/)
     lsl: bool
+    blind: bool  # reports have letters for the conditions until the analysis is frozen
     primary: Question
     secondary: tuple
     exposure: str  # what counts are divided by: a key of measures.EXPOSURES
@@ -159,19 +176,37 @@ class Plan:
         """The file of a world that is no name; None for a name."""
         return Path(self.file).absolute().parent / world.world if world.world.endswith(WORLD_FILES) else None
 
+    def beside(self, world):
+        """The files of its zones and of its job, as far as it has them, by argument of ./navvi run."""
+        one = next((one for one in self.worlds if (one.world, one.seed) == (world.world, world.seed)), None)
+        return {key: str(Path(self.file).absolute().parent / name) for key in ("zones", "jobs") if one and (name := getattr(one, key))}
+
+    def places(self, world):
+        """Those of its job, in their order; none without a job."""
+        return [place for key, file in self.beside(world).items() if key == "jobs" for place in places_in(file)]
+
+    def legs(self, world):
+        """The words of trials_bench for each leg of a trial, that is one without a job; each begins where the one before ends."""
+        words = [f"nav/mesh/zones:={file}" for key, file in self.beside(world).items() if key == "zones"]
+        places = [f"{x:g},{y:g}" for x, y, _, _ in self.places(world)]
+        starts = [[]] + [[f"sim/start:={place},0"] for place in places]
+        return [[*words, *start, f"sim/goal:={place}"] for start, place in zip(starts, places)] or [words]
+
     def values(self):
         """All that is planned, as JSON values; what a freeze keeps. Where the files are is no part of it, what is in them is."""
         values = _without_places(json.loads(json.dumps(asdict(self))))
         values.update({key: entry for key, entry in values.pop("steps").items() if entry or key in ALWAYS})
         values["minutes"] = {key: entry for key, entry in values["minutes"].items() if entry is not None or key in ALWAYS}
         del values["seed"]
-        if self.exposure == "trial":
-            del values["exposure"]
+        for key, usual in ("exposure", "trial"), ("blind", False):
+            if values[key] == usual:
+                del values[key]
         for question in (values["primary"], *values["secondary"]):
             for key in ("trials", "within", "effect", "sd"):
                 if not question[key]:
                     del question[key]
         files = {world.world: self.world_file(world) for world in self.worlds if self.world_file(world)}
+        files.update({getattr(world, key): file for world in self.worlds for key, file in self.beside(world).items()})
         return dict(values, world_files={name: hashlib.sha256(checked.read(file, LARGEST_WORLD)).hexdigest() for name, file in files.items()})
 
     def hash(self):
@@ -180,7 +215,7 @@ class Plan:
 
 def _without_places(value):
     if isinstance(value, dict):
-        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) != ("scope", "")}
+        return {key: _without_places(below) for key, below in value.items() if key != "file" and (key, below) not in (("scope", ""), ("zones", ""), ("jobs", ""))}
     return [_without_places(below) for below in value] if isinstance(value, list) else value
 
 

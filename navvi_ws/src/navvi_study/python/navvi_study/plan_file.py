@@ -30,7 +30,7 @@ def load(path):
         order=root.take("order", one_of("williams", "drawn", "listed"), "williams"),
         groups=tuple(_group(name, part, conditions) for name, part in root.sections("groups")),
         conditions=conditions, sets=sets, reserve=reserve,
-        lsl=root.take("lsl", flag, False), steps={key: entry for kind in KINDS for key, entry in kind.read(root, folder).items()},
+        lsl=root.take("lsl", flag, False), blind=root.take("blind", flag, False), steps={key: entry for kind in KINDS for key, entry in kind.read(root, folder).items()},
         primary=_question(outcomes.section("primary", required=True), conditions),
         secondary=tuple(_question(part, conditions) for part in outcomes.items("secondary", [])),
         exposure=outcomes.take("exposure", one_of(*measures.EXPOSURES), "trial"),

@@ -21,7 +21,7 @@ def write(study):
     """The page of the plan that was frozen last. Returns the file."""
     path = study.folder / "preregistration.md"
     # As attributes, like a Plan's; keys that a freeze leaves out have their default.
-    usual = {"exposure": "trial", "at_begin": [], **{kind.key: None for kind in KINDS if kind.key}}
+    usual = {"exposure": "trial", "blind": False, "at_begin": [], **{kind.key: None for kind in KINDS if kind.key}}
     plan = json.loads(json.dumps({**usual, **study.frozen()}), object_hook=lambda values: SimpleNamespace(**values))
     write_safely(path, "\n".join(page(plan, study.progress().freezes)) + "\n")
     return path
@@ -55,7 +55,8 @@ def page(plan, freezes):
             "Models hold the place of the condition in the order, where it varies.",
             f"Beside each stands the mean of the paired differences with its 95 % interval, a bootstrap of participants ({RESAMPLES} draws).",
             f"Below {LEAST} participants there is neither interval nor test.",
-            "The primary outcome is not corrected, the secondary ones are by Holm; all else is exploratory, corrected by Benjamini and Hochberg."],
+            "The primary outcome is not corrected, the secondary ones are by Holm; all else is exploratory, corrected by Benjamini and Hochberg.",
+            *(["Reports have letters for the conditions until the analysis is frozen."] if plan.blind else [])],
         "Exclusions": overview.broken_off(plan),
         "Changes since the plan was frozen first": [f"{row['utc'][:10]}, {row['reason']}: {change}" for row in freezes for change in row["changes"]],
     }

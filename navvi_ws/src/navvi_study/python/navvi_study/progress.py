@@ -21,7 +21,7 @@ class Attempt:
     excluded_by: str = ""
     replaced: bool = True  # another attempt takes its place
     dropped_out: bool = False  # the person or the experimenter ended it
-    sums: dict = field(default_factory=dict)  # SHA-256 of its trial's files when it ended, by name; none in journals of before
+    legs: dict = field(default_factory=dict)  # by trial, more than one of a job: SHA-256 of its files when it ended, by name; none in journals of before
 
     @property
     def counts(self):
@@ -66,9 +66,9 @@ class Progress:
     def __init__(self, plan, rows):
         self.plan = plan
         self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
-        self.freezes = [row for row in rows if row["type"] == "freeze"]
+        self.freezes, self.analyses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis"))
         for row in rows:
-            if row["type"] != "freeze":
+            if row["type"] not in ("freeze", "analysis"):
                 getattr(self, "_" + row["type"])(row)
 
     def person(self, name):
@@ -101,7 +101,7 @@ class Progress:
         owner, _, name = trial.rstrip("/").rpartition("/")
         owner = owner.rpartition("/")[2]
         found = [(person, attempt) for person in self.people.values() for attempt in person.attempts
-                 if attempt.trial and attempt.trial.rpartition("/")[2] == name and owner in ("", person.name, attempt.trial.rpartition("/")[0])]
+                 for leg in attempt.legs if leg.rpartition("/")[2] == name and owner in ("", person.name, leg.rpartition("/")[0])]
         if len(found) != 1:
             raise StudyError(f"\"{trial}\" names {len(found)} trials of this study; allowed is a trial's name from \"study status\", such as sub-01/trial-20260101T120000Z.")
         return found[0]
@@ -117,7 +117,7 @@ class Progress:
     def _end(self, row):
         attempt = self._attempt(row)
         attempt.ended, attempt.trial, attempt.result, attempt.collisions = True, row["trial"], row["result"], row["collisions"]
-        attempt.sums = row.get("sums", {})
+        attempt.legs = row.get("legs", {row["trial"]: row.get("sums", {})} if row["trial"] else {})
 
     def _done(self, row):
         self.people[row["participant"]].done[row["step"]] = row

@@ -40,7 +40,7 @@ def page(study, progress, rehearsed, picture=lambda world, seed, driven: b""):
     of_outcomes = [primary.measure, *[one.measure for one in secondary]]
     return environment.get_template("report.html.j2").render(
         plan=plan, rehearsed=rehearsed, opening=opening(progress), who=who(progress, primary), flow=flow(progress, primary), people=people(progress),
-        trials=trials(progress), besides=besides(progress), excluded=excluded(progress), resamples=RESAMPLES,
+        trials=trials(progress), legs=legs(study, progress), besides=besides(progress), excluded=excluded(progress), resamples=RESAMPLES,
         primary=answer(analysis, primary, False), secondary=[answer(analysis, one, True) for one in secondary], parts=parts,
         outcomes=of_outcomes, conditions=[BLIND] if study.letters else overview.conditions(plan), models=preregistration.MODELS.values(), alike=[alike(analysis, name) for name in analysis.asked() if name not in (*asked, *of_outcomes)],
         questionnaires=answered(study, progress), maps=maps(found, plan, picture, command), cues=[] if study.letters else cues(found, plan),  # a condition without touch has no pulses
@@ -63,7 +63,8 @@ def opening(progress):
     if progress.plan.order == "drawn":
         drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 is in the journal since then." if progress.over else
                  " Orders are drawn by a seed that is printed here once nobody is left to begin.")
-    return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}"
+    blind = "".join(f" Conditions were letters until {row['utc'][:10]}, when the blinded report had the SHA-256 {row['report']}." for row in progress.analyses)
+    return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}{blind}"
 
 
 FLOW = {
@@ -109,6 +110,16 @@ def trials(progress):
         for step in progress.missing(person):
             rows[step.condition][5] += 1
     return [[name, *counts] for name, counts in rows.items()]
+
+
+def legs(study, progress):
+    """A row a condition and place of a job: how often it was driven to and reached, and the mean time."""
+    found = collections.defaultdict(list)
+    for row in table.trials(study, progress):
+        if "leg" in row and row["counts"] == "yes":
+            found[row["condition"], int(row["leg"]), row["place"], row["do"]].append(row)
+    return [[f"{condition}: {leg}. {place}, {do}", len(rows), sum(row["result"] == "reached" for row in rows), shown(statistics.mean(float(row["elapsed_s"]) for row in rows))]
+            for (condition, leg, place, do), rows in sorted(found.items())]
 
 
 def driven(progress, kind):

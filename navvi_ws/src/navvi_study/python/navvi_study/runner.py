@@ -50,11 +50,13 @@ class LiveRunner:
                  "out": folder, "feedback/locked": "true", "trial/locked": "true", **self._learnt(participant, attempt)}
         if plan.lsl:
             words["lsl"] = "true"
+        if places := plan.places(attempt):  # a start is drawn for it, as in a rehearsal
+            words["goal"] = "{:g},{:g}".format(*places[0])
         if simulated:
             words.update(rviz="false", **person_of(participant, "operator/person/"))
         else:
             words["speech"] = "true"
-        return {**words, **place_of(plan, participant, step, attempt)}
+        return {**words, **plan.beside(attempt), **place_of(plan, participant, step, attempt)}
 
     def _learnt(self, participant, attempt):
         plan = self.study.plan
@@ -184,14 +186,19 @@ class LoopRunner:
         plan = self.study.plan
         words = plan.condition(step.condition).arguments()
         command = [self.program, f"--world={plan.world_file(attempt) or attempt.world}", f"--seeds={attempt.seed}", f"--limit={step.limit or plan.limit:.0f}",
-                   f"--profile={words.pop('profile')}", f"--out={folder}", "--records=all"]
+                   f"--profile={words.pop('profile')}", "--records=all"]
         words.update(person_of(participant, "person/"), **place_of(plan, participant, step, attempt))
         words.update({"trial/participant": participant, "trial/version": self.version})
         parts = ("sim/", "nav/", "feedback/", "person/", "perception/", "trial/")
         command += [f"{name}:={value}" for name, value in words.items() if name.startswith(parts) and not name.startswith(("feedback/speaker", "feedback/mixer"))]
-        result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False, pass_fds=(lock,))
-        if result.returncode != 0:
-            raise StudyError(f"{participant}, {step}: {(result.stderr or result.stdout).strip()}")
+        legs = plan.legs(attempt)
+        for number, leg in enumerate(legs, 1):
+            out = folder / f"leg-{number:02d}" if len(legs) > 1 else folder
+            result = subprocess.run([*command, *leg, f"--out={out}"], capture_output=True, text=True, errors="replace", check=False, pass_fds=(lock,))
+            if result.returncode != 0:
+                raise StudyError(f"{participant}, {step}: {(result.stderr or result.stdout).strip()}")
+            for trial in out.glob("trial-*") if len(legs) > 1 else ():  # they have one name
+                trial.rename(folder / f"{trial.name}-{out.name}")
 
     def ask(self, participant, step, items, answered, lock):
         step.simulate(participant, items, answered)

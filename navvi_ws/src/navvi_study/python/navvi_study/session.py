@@ -5,6 +5,8 @@ from .measures import number
 from .plan import BROKEN_OFF
 from .study import read_summary
 
+WHOLE = ("reached", "timeout")  # results of a leg after which a job goes on
+
 
 class Session:
     """\\param say  takes a line for the experimenter
@@ -46,30 +48,34 @@ class Session:
     def end(self, name, attempt):
         """Writes what came of an attempt. Returns whether a trial began."""
         folder = self.study.attempt_folder(name, attempt.step, attempt.number)
-        trials = sorted(path for path in folder.glob("trial-*") if (path / "summary.csv").is_file())
-        row = read_summary(trials[-1]) if trials else {}
-        began = bool(row) and row.get("started_utc", "n/a") != "n/a"
-        collisions = [number(row.get(f"{what}_collision_count")) for what in ("shelf", "obstacle")]
+        trials, places = sorted(path for path in folder.glob("trial-*") if (path / "summary.csv").is_file()), self.study.plan.places(attempt)
+        legs = {path: row for path in (trials if places else trials[-1:]) if (row := read_summary(path)).get("started_utc", "n/a") != "n/a"}
+        rows = [*legs.values()]
+        if 0 < len(rows) < len(places) and rows[-1]["result"] in WHOLE:  # broken off between two places
+            rows.append({**rows[-1], "result": "aborted", "reason": "n/a"})
+        collisions = [number(row.get(f"{what}_collision_count")) for row in rows for what in ("shelf", "obstacle")]
+        sums = {path.name: {file.name: sum_of(file) for file in sorted(path.iterdir()) if file.is_file()} for path in legs}
+        trial = [*sums][-1] if sums else ""
         self.study.journal.append(
-            "end", participant=name, step=attempt.step, attempt=attempt.number, trial=trials[-1].name if began else "",
-            result=row.get("result", "none") if began else "none", collisions=None if None in collisions else sum(collisions),
-            sums={path.name: sum_of(path) for path in sorted(trials[-1].iterdir()) if path.is_file()} if began else {})
-        if not began:
+            "end", participant=name, step=attempt.step, attempt=attempt.number, trial=trial, result=result_of(rows),
+            collisions=None if None in collisions or not rows else sum(collisions), **({"legs": sums} if places else {"sums": sums.get(trial, {})}))
+        if not rows:
             self.say("navvi: no trial began; the same comes again with the next \"study next\".")
             return False
-        self.say(f"navvi: {name}: {row['result']}, {row['elapsed_s']} s; the record is in {trials[-1]}.")
-        self._apply_rules(name, attempt, trials[-1].name, row)
+        for path, row in legs.items():
+            self.say(f"navvi: {name}: {row['result']}, {row['elapsed_s']} s; the record is in {path}.")
+        self._apply_rules(name, attempt, trial, rows)
         return True
 
-    def _apply_rules(self, name, attempt, trial, row):
-        if who := self._dropped_out(name, attempt, row):
+    def _apply_rules(self, name, attempt, trial, rows):
+        if who := self._dropped_out(name, attempt, rows[-1]):
             self.study.journal.append("exclude", participant=name, step=attempt.step, attempt=attempt.number, trial=trial,
                                       reason=f"drop-out: ended by the {who}", rule=True, replace=False, drop_out=True)
             self.say(f"navvi: {name}: a drop-out, ended by the {who}; nothing takes its place. If that had nothing to do with the person or the condition: "
                      f"./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does.")
             return
         for rule in (*self.study.plan.exclusions, *BROKEN_OFF):
-            if rule.meets(row):
+            if any(map(rule.meets, rows)):
                 self.study.journal.append("exclude", participant=name, step=attempt.step, attempt=attempt.number, trial=trial,
                                           reason=rule.reason, rule=True, replace=True)
                 self.say(f"navvi: {name}: the trial does not count: {rule.reason}.")
@@ -86,6 +92,12 @@ class Session:
         """The step is over. Returns True."""
         self.study.journal.append("done", participant=name, step=step.name, **fields)
         return True
+
+
+def result_of(rows):
+    """Of a trial, by the summaries of its legs: what broke it off, else what was not reached."""
+    results = [row["result"] for row in rows]
+    return next((one for one in results if one not in WHOLE), next((one for one in results if one != "reached"), "reached")) if results else "none"
 
 
 def why_nothing(progress, person):

@@ -99,6 +99,15 @@ class Study:
         if changes := differences(before, self.plan.values()):
             raise StudyError("the plan has changed since it was frozen; undo that, or freeze it again with --reason. Changed:\n  " + "\n  ".join(changes))
 
+    def require_analysis(self):
+        if self.concealed:
+            raise StudyError("the plan says \"blind: true\", and tables name the conditions; \"./navvi study unblind\" freezes the analysis first.")
+
+    @property
+    def concealed(self):
+        """Whether the plan asks for a blinded analysis, and that is not frozen yet."""
+        return self.plan.blind and not self.progress().analyses
+
     def blinded(self):
         """The same study to an analyst: letters for the conditions, by a key that is drawn once and kept."""
         path, names = self.folder / "blinding.json", sorted(condition.name for condition in self.plan.conditions)
@@ -206,11 +215,11 @@ class Study:
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
 
-    def summary(self, participant, attempt):
-        """The summary of an attempt's trial; empty where none was written."""
+    def summary(self, participant, attempt, trial=""):
+        """The summary of an attempt's trial, or of that leg of it; empty where none was written."""
         if not attempt.trial:
             return {}
-        return read_summary(self.attempt_folder(participant, attempt.step, attempt.number) / attempt.trial)
+        return read_summary(self.attempt_folder(participant, attempt.step, attempt.number) / (trial or attempt.trial))
 
     def finish_erasing(self):
         """What was to be deleted is deleted, also after a crash amid that."""

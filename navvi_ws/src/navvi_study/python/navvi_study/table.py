@@ -15,6 +15,7 @@ COLUMNS = {
     "condition": "see the plan", "phase": "practice, trial or probe", "repeat": "of the trial in its condition, from 1; 0 in practice",
     "attempt": "from 1; more where a trial was replaced", "counts": "yes; drop-out where the person or the experimenter ended it; no where the trial is excluded, or is practice or a probe",
     "excluded": "the reason, or n/a", "excluded_by": "rule, or the user who excluded it", "replaces": "the trial in whose place it stands",
+    "leg": "of a job, from 1", "place": "of the job, where the leg leads", "do": "what is done there: drive, pick, drop or scan",
     "marks": "marks and notes of the experimenter", "interventions": "of the experimenter",
 }
 NOT_OURS = {"participant", "group", "condition", "order", "session", "phase", "repeat", "attempt", "replaces"}
@@ -50,17 +51,20 @@ def trials(study, progress):
         for attempt in person.attempts:
             if not attempt.trial or person.withdrawn == "delete":
                 continue
-            step = person.step(attempt.step)
-            summary = study.summary(person.name, attempt)
+            step, places = person.step(attempt.step), progress.plan.places(attempt)
             mine = [note for note in notes if (note["step"], note["attempt"]) == (attempt.step, attempt.number)]
-            row = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": step.session, "order": step.order,
+            whole = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": step.session, "order": step.order,
                    "condition": step.condition, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number,
                    "counts": _counts(person, step, attempt),
                    **described_by, "excluded": person.excluded or attempt.excluded or "n/a", "excluded_by": attempt.excluded_by or "n/a",
                    "replaces": attempt.replaces or "n/a", "marks": len([note for note in mine if note["type"] in ("mark", "note")]),
-                   "interventions": len([note for note in mine if note["type"] == "intervention"])}
-            row.update({name: cell for name, cell in summary.items() if name not in NOT_OURS})
-            rows.append({name: str(cell) for name, cell in row.items()})
+                     "interventions": len([note for note in mine if note["type"] == "intervention"])}
+            for at, trial in enumerate(attempt.legs):
+                row = whole if at == 0 else {**whole, "marks": 0, "interventions": 0}  # of all legs, in the first
+                row = {**row, **{name: cell for name, cell in study.summary(person.name, attempt, trial).items() if name not in NOT_OURS}, "trial": trial}
+                if places:
+                    row.update(leg=at + 1, place=places[at][2], do=places[at][3])
+                rows.append({name: str(cell) for name, cell in row.items()})
     return rows
 
 
@@ -81,17 +85,20 @@ def events(study, progress):
     rows = []
     for row in trials(study, progress):
         whose = {name: row[name] for name in WHOSE}
-        for event in events_of(study, row["participant"], attempt_of(progress, row)):
+        for event in events_of(study, row["participant"], attempt_of(progress, row), row["trial"]):
             rows.append({**whose, **{name: cell for name, cell in event.items() if name not in WHOSE}})
     return rows
 
 
-def events_of(study, participant, attempt):
+def events_of(study, participant, attempt, trial):
     """Of one trial, in the order of their onsets."""
-    record = Record(study.attempt_folder(participant, attempt.step, attempt.number) / attempt.trial)
+    record = Record(study.attempt_folder(participant, attempt.step, attempt.number) / trial)
     found = record.events()
     for note in study.notes(participant):
-        if (note["step"], note["attempt"]) == (attempt.step, attempt.number) and (onset := record.onset_of(note["mono_ns"])) is not None:
+        mine = (note["step"], note["attempt"]) == (attempt.step, attempt.number)
+        if len(attempt.legs) > 1 and not (record.rows and record.rows[0].mono_ns <= note["mono_ns"] <= record.rows[-1].mono_ns):
+            continue
+        if mine and (onset := record.onset_of(note["mono_ns"])) is not None:
             found.append({"onset_s": f"{onset:.3f}", "duration_s": "0", "wall_clock_utc": note["utc"], "trial_type": note["type"],
                           "detail": note["text"] or "n/a"})
     return sorted(found, key=lambda event: float(event["onset_s"]))
@@ -101,7 +108,7 @@ def attempt_of(progress, row):
     """The attempt that a row of trials() is about."""
     person = progress.people[row["participant"]]
     steps = [step.name for step in person.steps if (step.condition, str(step.repeat), step.kind) == (row["condition"], row["repeat"], row["phase"])]
-    return next(one for one in person.attempts if one.trial == row["trial"] and str(one.number) == row["attempt"] and one.step in steps)
+    return next(one for one in person.attempts if row["trial"] in one.legs and str(one.number) == row["attempt"] and one.step in steps)
 
 
 def answers(study, progress):

@@ -14,8 +14,8 @@ def verify(study, progress, count_trial):
     sentences, bad = [], 0
     for row in table.trials(study, progress):
         attempt = table.attempt_of(progress, row)
-        folder = study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial
-        found = {"files": _files(folder, attempt), "journal": _journal(count_trial, folder), "bag": _bag(count_trial, folder, row), "table": _table(study, row, attempt)}
+        folder = study.attempt_folder(row["participant"], attempt.step, attempt.number) / row["trial"]
+        found = {"files": _files(folder, attempt.legs[row["trial"]]), "journal": _journal(count_trial, folder), "bag": _bag(count_trial, folder, row), "table": _table(study, row, attempt)}
         wrong = {name: words for name, words in found.items() if words != EQUAL and not words.startswith("no ")}
         bad += bool(wrong)
         sentences.append(f"{row['participant']}/{row['trial']}: " + ", ".join(f"{name} {words}" for name, words in found.items()) + ".")
@@ -38,10 +38,10 @@ def notes_and_answers(study, progress):
     return sentences, counts, lost
 
 
-def _files(folder, attempt):
+def _files(folder, sums):
     """They are as they were when the trial ended."""
-    wrong = [name for name, known in attempt.sums.items() if sum_of(folder / name) != known]
-    return "differ: " + ", ".join(wrong) if wrong else EQUAL if attempt.sums else "no sums"
+    wrong = [name for name, known in sums.items() if sum_of(folder / name) != known]
+    return "differ: " + ", ".join(wrong) if wrong else EQUAL if sums else "no sums"
 
 
 def _journal(program, folder):
@@ -61,7 +61,7 @@ def _bag(program, folder, row):
 
 def _table(study, row, attempt):
     """What stands in trials.csv now is what the summary holds."""
-    summary = study.summary(row["participant"], attempt)
+    summary = study.summary(row["participant"], attempt, row["trial"])
     wrong = [name for name, cell in summary.items() if name in row and name not in table.NOT_OURS and row[name] != cell]
     wrong += [name for name in ("condition", "group", "phase") if summary.get(name, "n/a") not in ("n/a", row[name])]
     return EQUAL if not wrong else "differs in " + ", ".join(wrong)

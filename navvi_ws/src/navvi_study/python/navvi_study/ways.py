@@ -12,7 +12,7 @@ def records(study, progress):
     for row in table.trials(study, progress):
         if row["counts"] == "yes":
             attempt = table.attempt_of(progress, row)
-            record = Record(study.attempt_folder(row["participant"], attempt.step, attempt.number) / attempt.trial)
+            record = Record(study.attempt_folder(row["participant"], attempt.step, attempt.number) / row["trial"])
             if record.first("TRIAL_START"):
                 found.append((row, record))
     return found

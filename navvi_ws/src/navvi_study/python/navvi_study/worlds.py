@@ -17,7 +17,11 @@ def drive(plan, trials_bench, jobs=2):
     worlds = plan.worlds
 
     def one(world):
-        command = [str(trials_bench), f"--world={plan.world_file(world) or world.world}", f"--seeds={world.seed}", f"--limit={plan.limit:.0f}", "--csv"]
+        rows = [drive_leg(world, words) for words in plan.legs(world)]
+        return rows[0] if len(rows) == 1 else _together(rows)
+
+    def drive_leg(world, words):
+        command = [str(trials_bench), f"--world={plan.world_file(world) or world.world}", f"--seeds={world.seed}", f"--limit={plan.limit:.0f}", "--csv", *words]
         result = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
         rows = list(csv.DictReader(io.StringIO(result.stdout)))
         if result.returncode != 0 or len(rows) != 1:
@@ -44,7 +48,7 @@ def pictures(plan, draw):
     folder.mkdir(parents=True, exist_ok=True)
     files = {world: folder / f"{Path(world.world).stem}-{world.seed}.svg" for world in plan.worlds}
     for world, file in files.items():
-        draw(str(plan.world_file(world) or world.world), [f"seed:={world.seed}"], file)
+        draw(str(plan.world_file(world) or world.world), _words(plan, world), file)
     return [*files.values()]
 
 
@@ -55,11 +59,22 @@ def picture_for(plan, draw):
         svg = io.BytesIO()
         try:
             for one in known[:1]:
-                draw(str(plan.world_file(one) or one.world), [f"seed:={one.seed}"], svg, driven)
+                draw(str(plan.world_file(one) or one.world), _words(plan, one), svg, driven)
         except (StudyError, OSError):
             return b""
         return svg.getvalue()
     return picture
+
+
+def _words(plan, world):
+    return [f"seed:={world.seed}", *(f"nav/mesh/zones:={file}" for key, file in plan.beside(world).items() if key == "zones")]
+
+
+def _together(rows):
+    """The legs of a job as one row."""
+    row = {name: sum(float(one[name]) for one in rows) for name in ("shortest_path_m", "elapsed_s", "mover_proximity_count")}
+    return {**row, "result": next((one["result"] for one in rows if one["result"] != "reached"), "reached"),
+            "turns_per_min": 60 * sum(map(_turns, rows)) / row["elapsed_s"]}
 
 
 def _turns(row):
@@ -74,7 +89,7 @@ def compared(plan, driven):
                          *plan.other_worlds.items()]:
         for world in worlds:
             row = driven[world]
-            lines.append(f"  {name}: {world}: {row['result']}, way {float(row['shortest_path_m']):.1f}, turns {_turns(row):.0f}, movers {row['mover_proximity_count']}, time {float(row['elapsed_s']):.1f}.")
+            lines.append(f"  {name}: {world}: {row['result']}, way {float(row['shortest_path_m']):.1f}, turns {_turns(row):.0f}, movers {float(row['mover_proximity_count']):.0f}, time {float(row['elapsed_s']):.1f}.")
         if name.startswith("set"):
             rows = [driven[world] for world in worlds]
             sets[name] = {"ways": sum(float(row["shortest_path_m"]) for row in rows), "turns": sum(round(_turns(row)) for row in rows),

@@ -30,6 +30,12 @@ std::string place_of(const Eigen::Vector2d& point) {
 
 }  // namespace
 
+std::optional<std::size_t> TrialKeeper::Job::at(const Eigen::Vector2d& goal) const {
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if ((places[i].at - goal).norm() < kSame) return i;
+  return std::nullopt;
+}
+
 TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const Moment& now,
                          navvi_files::SystemCalls calls)
     : config_(config),
@@ -43,6 +49,7 @@ TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const M
   config_.out = fs::absolute(config_.out).lexically_normal().string();
   if (!config_.job.empty()) {
     job_.places = navvi_feedback::menu::read_places(config_.job);
+    for (std::size_t i = 0; i < job_.places.size(); ++i) job_.left.push_back(i);
     config_.once = false;
   }
   for (const auto& sentence : record::recover_trials(config_.out)) tell(Tone::warning, sentence);
@@ -178,9 +185,9 @@ void TrialKeeper::show_state() {
   TrialState now{state()};
   if (shown_.state == now.state) return;
   shown_.state = now.state;
-  if (now.state == TrialState::State::ready && job_.reached > 0) {
-    now.place = job_.places[job_.reached - 1].name;
-    now.task = job_.places[job_.reached - 1].task;
+  if (now.state == TrialState::State::ready && job_.here) {
+    now.place = job_.places[*job_.here].name;
+    now.task = job_.places[*job_.here].task;
   }
   outlets_.show(now);
 }
@@ -219,12 +226,12 @@ void TrialKeeper::arm() {
 void TrialKeeper::try_to_start() {
   if (!kept_.bag.ready(now_.wall())) return;
   if (job_.done()) {
-    if (config_.press_to_start && !pressed_) return;
-    tell(Tone::info, "The job is done: " + std::to_string(job_.reached) + " places.");
+    if (config_.press_to_start && job_.here && !pressed_) return;
+    tell(Tone::info, "The job is done: " + std::to_string(job_.places.size()) + " places.");
     return abandon(0);
   }
   if (!job_.places.empty()) {
-    if (!goals_.next) goals_.next = ChosenGoal{job_.places[job_.reached].at};
+    if (!goals_.next) goals_.next = ChosenGoal{job_.places[job_.left.front()].at};
   } else if (offered_.scenario && !offered_.played) {
     offered_.played = true;
     goals_.next = ChosenGoal{offered_.scenario->goal};
@@ -285,10 +292,9 @@ record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   // s of ROS time; the clock runs from TRIAL_START, which follows within a few hundredths of one
   if (const auto pressed = std::exchange(pressed_, std::nullopt))
     fields.set("pressed", 1e-9 * static_cast<double>(*pressed), 3);
-  if (!job_.places.empty()) {
-    const auto& place = job_.places[job_.reached];
-    fields.set("job_place", static_cast<std::uint64_t>(job_.reached + 1));
-    fields.set("job_name", place.name).set("job_task", to_string(place.task));
+  if (const auto at = job_.at(goals_.now.place)) {
+    fields.set("job_place", static_cast<std::uint64_t>(*at + 1));
+    fields.set("job_name", job_.places[*at].name).set("job_task", to_string(job_.places[*at].task));
   }
   fields.set("voice", readiness_.trait("speech", "voice"));
   fields.set("pad_name", readiness_.trait("pad", "name"));
@@ -469,11 +475,14 @@ void TrialKeeper::finish() {
   kept_.journal.reset();
   enter(Phase::waiting);
   shown_.said = phase_since_;
-  // Another goal, of the menu, is none of the job's.
-  if (ending_.result == "reached" && job_.reached < job_.places.size() &&
-      (goals_.now.place - job_.places[job_.reached].at).norm() < kSame)
-    ++job_.reached;
-  if (config_.once || exit_.asked || exit_.code != 0) leave(exit_.code);
+  const bool reached = ending_.result == "reached";
+  const auto at = job_.at(goals_.now.place);
+  job_.here = reached ? at : std::nullopt;
+  // In a study each place is driven to once, and what breaks off a trial breaks off the job.
+  if (at && (reached || config_.locked))
+    job_.left.erase(std::remove(job_.left.begin(), job_.left.end(), *at), job_.left.end());
+  const bool broke_off = config_.locked && !reached && ending_.result != "timeout";
+  if (config_.once || broke_off || exit_.asked || exit_.code != 0) leave(exit_.code);
 }
 
 void TrialKeeper::leave(int exit_code) {

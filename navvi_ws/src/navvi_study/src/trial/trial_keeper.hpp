@@ -128,8 +128,11 @@ class TrialKeeper {
   /// Places that are driven to one after the other, a trial each.
   struct Job {
     std::vector<navvi_feedback::menu::NamedPlace> places;
-    std::size_t reached = 0;
-    [[nodiscard]] bool done() const { return !places.empty() && reached == places.size(); }
+    std::vector<std::size_t> left;    ///< in `places`
+    std::optional<std::size_t> here;  ///< which was reached by the trial that has ended
+    [[nodiscard]] bool done() const { return !places.empty() && left.empty(); }
+    /// The place of the job to which a trial leads; nullopt: another goal, of the menu.
+    [[nodiscard]] std::optional<std::size_t> at(const Eigen::Vector2d& goal) const;
   };
   struct Exit {
     std::optional<double> asked;  ///< s, when it was asked to stop

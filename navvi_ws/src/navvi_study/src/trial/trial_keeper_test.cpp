@@ -386,6 +386,56 @@ TEST_F(Trials, of_a_job_lead_from_place_to_place_and_wait_for_what_is_done_there
   EXPECT_EQ(folders().size(), 3U) << "a record a leg";
 }
 
+TEST_F(Trials, of_a_job_lead_to_the_place_that_was_chosen_and_then_to_those_that_are_left) {
+  config_.job = folder_.write("job.yaml",
+                              "- {name: packing table, x: 3, y: 0}\n- {name: dock, x: 6, y: 0}\n");
+  config_.out = (folder_ / "out").string();
+  config_.press_to_start = true;
+  offer();
+  live(1.0);
+  using Goal = Eigen::Vector2d;
+  for (const auto& [chosen, leads, place] :
+       {std::tuple(true, Goal(6.0, 0.0), "job_place=2"), std::tuple(true, Goal(9.0, 0.0), ""),
+        std::tuple(false, Goal(3.0, 0.0), "job_place=1")}) {
+    if (chosen) keeper_->take_goal(leads, now());
+    keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+    live(1.0, State::following, leads);
+    EXPECT_EQ(goals_.back(), leads);
+    EXPECT_NE(content("journal.csv").find(*place != 0 ? place : "TRIAL_START"), std::string::npos);
+    EXPECT_EQ(content("journal.csv").find("job_place") != std::string::npos, *place != 0);
+    live(9.0, State::arrived, leads);
+    EXPECT_EQ(waits_.place, std::string(*place == 0 ? "" : leads.x() > 5.0 ? "dock" : "packing table"));
+  }
+  keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+  live(1.0, State::arrived, {3.0, 0.0});
+  EXPECT_TRUE(keeper_->done());
+}
+
+TEST_F(Trials, of_a_job_in_a_study_lead_to_each_place_once_and_end_where_one_breaks_off) {
+  for (const bool breaks_off : {false, true}) {
+    config_.job = folder_.write("job.yaml",
+                                "- {name: table, x: 3, y: 0}\n- {name: dock, x: 6, y: 0}\n");
+    config_.out = (folder_ / (breaks_off ? "broken" : "late")).string();
+    config_.press_to_start = config_.locked = true;
+    config_.limit = 5.0;
+    offer();
+    const auto press = [&](TrialRequest::Kind kind) {
+      keeper_->take(TrialRequest{kind, now().ros_ns}, now());
+    };
+    live(1.0);
+    press(TrialRequest::Kind::begin);
+    live(1.0, State::following, {3.0, 0.0});
+    if (breaks_off) press(TrialRequest::Kind::end);
+    live(9.0, State::following, {3.0, 0.0});
+    EXPECT_EQ(keeper_->done(), breaks_off);
+    if (breaks_off) break;
+    EXPECT_EQ(waits_.place, "") << "it was not reached";
+    press(TrialRequest::Kind::begin);
+    live(9.0, State::following, {6.0, 0.0});
+    EXPECT_TRUE(keeper_->done()) << "nothing is to be confirmed there";
+  }
+}
+
 TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   config_.require = {"speech"};
   offer();
