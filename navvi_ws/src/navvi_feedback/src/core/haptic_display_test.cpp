@@ -68,7 +68,7 @@ TEST_F(GuideTest, patterns_are_left_out_where_touch_is_not_wanted) {
   }
 }
 
-TEST_F(GuideTest, what_is_near_is_felt_while_fresh_less_under_a_safety_phrase_and_not_at_the_goal) {
+TEST_F(GuideTest, what_is_near_is_felt_less_under_a_safety_phrase_and_not_after_the_arrival) {
   const auto felt = [&] {
     guide_.take(Odometry{}, time_);
     guide_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
@@ -81,14 +81,20 @@ TEST_F(GuideTest, what_is_near_is_felt_while_fresh_less_under_a_safety_phrase_an
   EXPECT_NEAR(felt(), 0.3 * full, 1e-9);
   input_.speaking = false;
   EXPECT_NEAR(felt(), full, 1e-9);
-  const haptics::Rumble stale = pass(0.3).rumble;
-  EXPECT_EQ(stale.left + stale.right, 0.0);
   Guidance guidance;
   guidance.state = Guidance::State::arrived;
   guide_.take(guidance, time_);
   EXPECT_EQ(pass(0.02).pattern, haptics::Pattern::arrived);
   pass(1.5);
   EXPECT_EQ(felt(), 0.0);
+}
+
+TEST_F(GuideTest, what_is_near_is_felt_while_it_is_fresh) {
+  guide_.take(Odometry{}, time_);
+  guide_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
+  EXPECT_GT(pass(0.7).rumble.left, 0.5);
+  const haptics::Rumble stale = pass(0.3).rumble;
+  EXPECT_EQ(stale.left + stale.right, 0.0);
 }
 
 TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
