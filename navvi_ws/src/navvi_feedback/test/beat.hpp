@@ -1,11 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/guide_parts.hpp"
 
 namespace navvi_feedback::core {
+
+inline const std::string kEnglish = std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml";
 
 /// For tests: what a guide puts out in a beat, and what it has decided on the way there.
 struct Beat : Output {

@@ -42,10 +42,37 @@ class CuePolicyTest : public testing::Test {
     return texts;
   }
 
+  Texts ask(Question question, double seconds = 0.1) {
+    asked_.question = question;
+    return pass(seconds);
+  }
+
+  void drive(double speed) { now_.commanded.linear = now_.measured->linear = speed; }
   /// Drives ahead until only news is said.
   void under_way() {
-    now_.commanded.linear = now_.measured->linear = 1.0;
+    drive(1.0);
     pass(3.0);
+  }
+  void stand() {
+    now_.commanded = {};
+    now_.measured = Velocity{};
+  }
+
+  void block(ThingClass by = ThingClass::worker) {
+    now_.guidance->state = Guidance::State::blocked;
+    now_.guidance->blocked_by = by;
+  }
+  void follow() { now_.guidance->state = Guidance::State::following; }
+  void lead_to(double x, double y, double angle, double distance) {
+    now_.guidance->waypoint = {x, y};
+    now_.guidance->waypoint_angle = now_.guidance->steer_angle = angle;
+    now_.guidance->waypoint_distance = distance;
+  }
+
+  /// What became of the words that were told last.
+  void note(std::uint32_t id, const std::vector<CueStage>& stages) {
+    for (const CueStage stage : stages)
+      policy_.note({{id, stage, Content(last_), last_.text, last_.priority}});
   }
 
   CuePolicy policy_{CuePolicyConfig{}, Phrases(kEnglish)};
@@ -54,5 +81,8 @@ class CuePolicyTest : public testing::Test {
   Cue last_;
   double time_ = 50.0;
 };
+
+const std::vector<CueStage> kHeard = {CueStage::queued, CueStage::started, CueStage::ended};
+const std::vector<CueStage> kDropped = {CueStage::queued, CueStage::dropped};
 
 }  // namespace navvi_feedback::cues

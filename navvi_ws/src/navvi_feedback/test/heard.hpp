@@ -6,11 +6,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "temp_folder.hpp"
 
 // For tests: what OpenAL Soft would have sent to the loudspeakers, from its own wave writer.
 
@@ -31,11 +31,8 @@ inline void pause(double seconds) {
 }
 
 /// A folder of this process, for the recording; set up before the first use of OpenAL Soft.
-inline const std::filesystem::path& recording_folder() {
-  static const std::filesystem::path folder = [] {
-    std::string name = (std::filesystem::temp_directory_path() / "navvi_heard_XXXXXX").string();
-    return std::filesystem::path(mkdtemp(name.data()));
-  }();
+inline const navvi_test::TempFolder& recording_folder() {
+  static const navvi_test::TempFolder folder;
   return folder;
 }
 
@@ -43,22 +40,19 @@ inline const std::filesystem::path& recording_folder() {
 class Recording : public testing::Environment {
  public:
   void SetUp() override {
-    const std::filesystem::path config = recording_folder() / "alsoft.conf";
-    std::ofstream(config) << "[general]\ndrivers=wave\nchannels=stereo\nsample-type=int16\n"
-                          << "frequency=44100\n[wave]\nfile="
-                          << (recording_folder() / "heard.wav").string() << "\n";
+    const std::string config = recording_folder().write(
+        "alsoft.conf",
+        "[general]\ndrivers=wave\nchannels=stereo\nsample-type=int16\nfrequency=44100\n[wave]\n"
+        "file=" + (recording_folder() / "heard.wav").string() + "\n");
     setenv("ALSOFT_CONF", config.c_str(), 1);
   }
-  void TearDown() override { std::filesystem::remove_all(recording_folder()); }
 };
 inline testing::Environment* const recording =
     testing::AddGlobalTestEnvironment(new Recording);  // gtest deletes it
 
 /// What was recorded since the device was opened last.
 inline Heard heard() {
-  std::ifstream file(recording_folder() / "heard.wav", std::ios::binary);
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)),
-                                std::istreambuf_iterator<char>());
+  const std::string bytes = recording_folder().text("heard.wav");
   constexpr std::size_t kHeader = 68;  // at most; a few samples more or less do not matter
   Heard result;
   const auto sample = [&](std::size_t at) {

@@ -41,6 +41,12 @@ class Drive {
     return told;
   }
 
+  /// The way lies so far to the right.
+  void face(double degrees) {
+    now.guidance->waypoint_angle = now.guidance->steer_angle = rad(degrees);
+  }
+  void lead_to(double x, double y) { now.guidance->waypoint = {x, y}; }
+
   /// After the introduction and the first direction, so that only news is said.
   void settle(double degrees, double distance) {
     now.guidance = following(degrees, distance);

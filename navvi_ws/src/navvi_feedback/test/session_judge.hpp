@@ -14,9 +14,30 @@
 
 namespace navvi_feedback::core {
 
+/// What sessions came to.
+struct Verdict {
+  std::set<std::string> complaints;  ///< rules that were broken
+  int orders_of_way = 0;             ///< looks at which the order was to drive somewhere
+  int waits = 0;                     ///< that were ended by "go on"
+  double longest_wait = 0.0;         ///< s, for "go on" after the cause had gone
+  double longest_wait_alone = 0.0;   ///< s, of these, with nothing that moves near
+  double longest_owed = 0.0;         ///< s, at rest after "go on", for the next one
+  int owed_again = 0;                ///< that were said to who had not moved since the one before
+
+  void add(const Verdict& more) {
+    complaints.insert(more.complaints.begin(), more.complaints.end());
+    orders_of_way += more.orders_of_way;
+    waits += more.waits;
+    longest_wait = std::max(longest_wait, more.longest_wait);
+    longest_wait_alone = std::max(longest_wait_alone, more.longest_wait_alone);
+    longest_owed = std::max(longest_owed, more.longest_owed);
+    owed_again += more.owed_again;
+  }
+};
+
 /// For tests: a robot, its world and a voice about one Guide, and a judge of what is told. The
 /// voice is navvi_types' model.
-class SessionJudge {
+class SessionJudge : public Verdict {
  public:
   /// All that may happen to a person; steady until it is changed.
   struct Scene {
@@ -31,13 +52,14 @@ class SessionJudge {
     bool stick = true;     ///< it is connected
     double forward = 0.8;  ///< stick
     bool sounds = true;
+    Link audio = Link::alive;
     bool motors = true;
     std::optional<drive::Button> asked;
     std::vector<Content> notices;
   };
 
   explicit SessionJudge(const GuideConfig& config = {})
-      : guide_(config, std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml") {
+      : guide_(config, kEnglish) {
     Guidance& guidance = now.guidance;
     guidance.state = Guidance::State::following;
     guidance.goal = guidance.waypoint = {20.0, 0.0};
@@ -70,14 +92,6 @@ class SessionJudge {
   std::vector<std::string> words;    ///< texts that were begun
   std::set<std::string> felt;        ///< patterns
   std::set<std::string> played;      ///< earcons
-  std::set<std::string> complaints;  ///< rules that were broken
-  int orders_of_way = 0;             ///< looks at which the order was to drive somewhere
-  int waits = 0;                     ///< that were ended by "go on"
-  double longest_wait = 0.0;         ///< s, for "go on" after the cause had gone
-  double longest_wait_alone = 0.0;   ///< s, of these, with nothing that moves near
-  double longest_owed = 0.0;         ///< s, at rest after "go on", for the next one
-  int owed_again = 0;                ///< that were said to who had not moved since the one before
-
  private:
   using Events = std::vector<CueEvent>;
   struct Known {
@@ -101,6 +115,7 @@ class SessionJudge {
     input.hands.axes = {0.0, now.forward};
     input.hands.buttons = std::vector<bool>(20, false);
     input.sounds = now.sounds;
+    input.audio = now.audio;
     input.motors = now.motors;
     input.states = now.notices;
     input.speaking = time < speaks_until_;
@@ -159,6 +174,7 @@ class SessionJudge {
       if (running_ != 0) complaints.insert("two cues at once");
       running_ = event.id;
       words.push_back(event.text);
+      if (!navvi_types::speakable(event.text)) complaints.insert("unspeakable: " + event.text);
       says_way_ = says_way_ || (is_way(family_of(*event.kind())) && !known.cue.asked);
       if (time - known.queued > known.cue.max_age + kTick) complaints.insert("a stale cue");
       judge_wait(event, known.cue.asked);

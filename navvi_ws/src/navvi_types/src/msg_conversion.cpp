@@ -58,10 +58,11 @@ Pose2 pose_of(const geometry_msgs::Pose& pose) {
   return {flat(pose.position), tf2::getYaw(tf2::Quaternion(q.x, q.y, q.z, q.w))};
 }
 
-std_msgs::Header header(const std::string& frame, std::int64_t stamp) {
-  std_msgs::Header msg;
-  msg.frame_id = frame;
-  msg.stamp = from_ns(stamp);
+template <typename Msg>
+Msg stamped(std::int64_t stamp, const std::string& frame = {}) {
+  Msg msg;
+  msg.header.frame_id = frame;
+  msg.header.stamp = from_ns(stamp);
   return msg;
 }
 
@@ -337,8 +338,7 @@ geometry_msgs::Twist to_msg(const Velocity& velocity) {
 }
 
 nav_msgs::Odometry to_msg(const Odometry& odometry) {
-  nav_msgs::Odometry msg;
-  msg.header = header("odom", odometry.stamp);
+  auto msg = stamped<nav_msgs::Odometry>(odometry.stamp, "odom");
   msg.child_frame_id = "base_link";
   msg.pose.pose = pose_msg(odometry.pose, odometry.floor);
   msg.twist.twist = to_msg(odometry.velocity);
@@ -347,8 +347,7 @@ nav_msgs::Odometry to_msg(const Odometry& odometry) {
 }
 
 navvi_msgs::Proximity to_msg(const Proximity& proximity) {
-  navvi_msgs::Proximity msg;
-  msg.header = header("base_link", proximity.stamp);
+  auto msg = stamped<navvi_msgs::Proximity>(proximity.stamp, "base_link");
   msg.detection_radius = proximity.detection_radius;
   msg.things.reserve(proximity.things.size());
   for (const NearThing& thing : proximity.things) {
@@ -364,8 +363,7 @@ navvi_msgs::Proximity to_msg(const Proximity& proximity) {
 }
 
 navvi_msgs::Contact to_msg(const Contact& contact) {
-  navvi_msgs::Contact msg;
-  msg.header = header("map", contact.stamp);
+  auto msg = stamped<navvi_msgs::Contact>(contact.stamp, "map");
   msg.seq = contact.seq;
   msg.id = contact.id;
   msg.name = contact.name;
@@ -382,8 +380,7 @@ navvi_msgs::Contact to_msg(const Contact& contact) {
 }
 
 navvi_msgs::Obstacles to_msg(const Obstacles& obstacles) {
-  navvi_msgs::Obstacles msg;
-  msg.header = header("map", obstacles.stamp);
+  auto msg = stamped<navvi_msgs::Obstacles>(obstacles.stamp, "map");
   msg.obstacles.reserve(obstacles.things.size());
   for (const MovingThing& thing : obstacles.things) {
     navvi_msgs::Obstacle& entry = msg.obstacles.emplace_back();
@@ -401,8 +398,7 @@ navvi_msgs::Obstacles to_msg(const Obstacles& obstacles) {
 }
 
 navvi_msgs::Guidance to_msg(const Guidance& guidance) {
-  navvi_msgs::Guidance msg;
-  msg.header = header("map", guidance.stamp);
+  auto msg = stamped<navvi_msgs::Guidance>(guidance.stamp, "map");
   copy_guidance(guidance, msg);
   msg.mesh_age = guidance.mesh_age.value_or(-1.0);
   msg.map_age = guidance.map_age.value_or(-1.0);
@@ -414,8 +410,7 @@ navvi_msgs::Guidance to_msg(const Guidance& guidance) {
 }
 
 navvi_msgs::Cue to_msg(const CueEvent& event) {
-  navvi_msgs::Cue msg;
-  msg.header.stamp = from_ns(event.stamp);
+  auto msg = stamped<navvi_msgs::Cue>(event.stamp);
   msg.id = event.id;
   msg.stage = static_cast<std::uint8_t>(event.stage);
   msg.modality = static_cast<std::uint8_t>(event.modality());
@@ -428,8 +423,7 @@ navvi_msgs::Cue to_msg(const CueEvent& event) {
 }
 
 navvi_msgs::DriveState to_msg(const DriveState& state) {
-  navvi_msgs::DriveState msg;
-  msg.header.stamp = from_ns(state.stamp);
+  auto msg = stamped<navvi_msgs::DriveState>(state.stamp);
   msg.state = static_cast<std::uint8_t>(state.state);
   msg.reason = static_cast<std::uint8_t>(state.reason);
   msg.rejected = state.rejected;
@@ -439,8 +433,7 @@ navvi_msgs::DriveState to_msg(const DriveState& state) {
 }
 
 navvi_msgs::LinkState to_msg(const LinkState& state) {
-  navvi_msgs::LinkState msg;
-  msg.header.stamp = from_ns(state.stamp);
+  auto msg = stamped<navvi_msgs::LinkState>(state.stamp);
   msg.round_trip = state.round_trip;
   msg.round_trip_99 = state.round_trip_99;
   msg.jitter = state.jitter;
@@ -451,8 +444,7 @@ navvi_msgs::LinkState to_msg(const LinkState& state) {
 }
 
 navvi_msgs::Zone to_msg(const ZoneState& state) {
-  navvi_msgs::Zone msg;
-  msg.header = header("map", state.stamp);
+  auto msg = stamped<navvi_msgs::Zone>(state.stamp, "map");
   msg.kind = static_cast<std::uint8_t>(state.kind);
   msg.name = state.name;
   msg.forward = state.forward;
@@ -461,8 +453,7 @@ navvi_msgs::Zone to_msg(const ZoneState& state) {
 }
 
 navvi_msgs::Scenario to_msg(const Scenario& scenario) {
-  navvi_msgs::Scenario msg;
-  msg.header = header("map", scenario.stamp);
+  auto msg = stamped<navvi_msgs::Scenario>(scenario.stamp, "map");
   msg.world = scenario.world;
   msg.world_hash = scenario.world_hash;
   msg.seed = scenario.seed;
@@ -482,8 +473,7 @@ navvi_msgs::Scenario to_msg(const Scenario& scenario) {
 }
 
 navvi_msgs::TrialState to_msg(const TrialState& state) {
-  navvi_msgs::TrialState msg;
-  msg.header.stamp = from_ns(state.stamp);
+  auto msg = stamped<navvi_msgs::TrialState>(state.stamp);
   msg.state = static_cast<std::uint8_t>(state.state);
   msg.place = state.place;
   msg.task = static_cast<std::uint8_t>(state.task);
@@ -491,15 +481,13 @@ navvi_msgs::TrialState to_msg(const TrialState& state) {
 }
 
 navvi_msgs::TrialRequest to_msg(const TrialRequest& request) {
-  navvi_msgs::TrialRequest msg;
-  msg.header.stamp = from_ns(request.stamp);
+  auto msg = stamped<navvi_msgs::TrialRequest>(request.stamp);
   msg.request = static_cast<std::uint8_t>(request.kind);
   return msg;
 }
 
 navvi_msgs::StateHash to_msg(const StateHash& state) {
-  navvi_msgs::StateHash msg;
-  msg.header = header("map", state.stamp);
+  auto msg = stamped<navvi_msgs::StateHash>(state.stamp, "map");
   msg.step = state.step;
   msg.hash = to_hex(state.hash);
   return msg;
@@ -507,8 +495,7 @@ navvi_msgs::StateHash to_msg(const StateHash& state) {
 
 nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,
                         std::int64_t stamp, const std::string& frame) {
-  nav_msgs::Path msg;
-  msg.header = header(frame, stamp);
+  auto msg = stamped<nav_msgs::Path>(stamp, frame);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t from = i + 1 < points.size() ? i : i - 1;
     Eigen::Vector2d leg = Eigen::Vector2d::UnitX();
@@ -521,8 +508,7 @@ nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor
 }
 
 geometry_msgs::PoseStamped goal_msg(const Eigen::Vector2d& goal, std::int64_t stamp) {
-  geometry_msgs::PoseStamped msg;
-  msg.header = header("map", stamp);
+  auto msg = stamped<geometry_msgs::PoseStamped>(stamp, "map");
   msg.pose = pose_msg({goal, 0.0}, 0.0);
   return msg;
 }

@@ -12,36 +12,27 @@ class AnswersTest : public CuePolicyTest {};
 TEST_F(AnswersTest, answers_a_question_at_once) {
   under_way();
   now_.voice_busy = true;
-  asked_.question = Question::way;
-  EXPECT_EQ(pass(0.1), Texts{"drive straight, 20 meters"});
+  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
   EXPECT_EQ(last_.priority, Priority::message);
   now_.goal_angle = -1.6;
-  asked_.question = Question::goal;
-  EXPECT_EQ(pass(0.1), Texts{"the goal is 20 meters on, at 9 o'clock"});
+  EXPECT_EQ(ask(Question::goal), Texts{"the goal is 20 meters on, at 9 o'clock"});
   now_.guidance.reset();
   pass(3.0);
-  asked_.question = Question::goal;
-  EXPECT_EQ(pass(0.1), Texts{"there is no goal yet"});
+  EXPECT_EQ(ask(Question::goal), Texts{"there is no goal yet"});
 }
 
 TEST_F(AnswersTest, do_not_tell_the_way_a_third_time_within_seconds_so_that_a_person_can_drive) {
   under_way();
   std::size_t answers = 0;
   for (int second = 0; second < 12; ++second) {
-    asked_.question = Question::way;
-    answers += pass(0.1).size();
+    answers += ask(Question::way).size();
     pass(0.9);
   }
   EXPECT_EQ(answers, 4U);
-  asked_.question = Question::goal;
-  EXPECT_FALSE(pass(0.1).empty()) << "another question";
+  EXPECT_FALSE(ask(Question::goal).empty()) << "another question";
 }
 
 TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
-  const auto ask = [this](Question question) {
-    asked_.question = question;
-    return pass(0.1);
-  };
   under_way();
   now_.goal_angle = 1.6;
   now_.goal_straight = 12.0;
@@ -57,43 +48,35 @@ TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
 
 TEST_F(AnswersTest, tells_the_next_turn_and_what_the_buttons_do) {
   under_way();
-  asked_.question = Question::turn;
-  EXPECT_EQ(pass(0.1), Texts{"drive straight, 20 meters"}) << "there is none before the goal";
+  EXPECT_EQ(ask(Question::turn), Texts{"drive straight, 20 meters"}) << "none before the goal";
   now_.guidance->waypoint_is_goal = false;
   now_.guidance->turn_angle = 1.6;
   now_.guidance->waypoint_distance = 18.0;
-  asked_.question = Question::turn;
-  EXPECT_EQ(pass(0.1), Texts{"in 18 meters, turn to 3 o'clock"});
-  asked_.question = Question::help;
-  EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "press bottom ");
+  EXPECT_EQ(ask(Question::turn), Texts{"in 18 meters, turn to 3 o'clock"});
+  EXPECT_EQ(ask(Question::help).at(0).substr(0, 13), "press bottom ");
   now_.devices.keyboard = true;
-  asked_.question = Question::help;
-  EXPECT_EQ(pass(0.1).at(0).substr(0, 13), "space repeats");
+  EXPECT_EQ(ask(Question::help).at(0).substr(0, 13), "space repeats");
 }
 
 TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   now_.guidance.reset();
-  asked_.question = Question::around;
-  EXPECT_EQ(pass(0.1), Texts{"nothing is near"});
+  EXPECT_EQ(ask(Question::around), Texts{"nothing is near"});
   now_.nearby = {{ThingClass::wall, 1, 0.5, {0.0, 0.9}, false},
                  {ThingClass::worker, 2, 1.0, {-1.4, 0.0}, true},
                  {ThingClass::shelf, 3, 1.1, {0.0, -1.5}, false},
                  {ThingClass::box, 4, 1.2, {0.2, -1.6}, false},
                  {ThingClass::forklift, 5, 2.9, {3.3, 0.0}, true},
                  {ThingClass::pallet_robot, 6, 3.1, {0.0, 3.5}, true}};
-  asked_.question = Question::around;
-  const std::vector<Cue> told = policy_.update(now_, asked_, time_);
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_EQ(told[0].text,
-            "wall 0.5 meters left, forklift ahead, shelf 1 meter right, worker 1 meter behind")
+  EXPECT_EQ(ask(Question::around, 0.02),
+            Texts{"wall 0.5 meters left, forklift ahead, shelf 1 meter right, worker 1 meter "
+                  "behind"})
       << "four sides with their distances are too long to be spoken at once";
-  ASSERT_EQ(told[0].scan.size(), 4U);
-  EXPECT_EQ(told[0].scan[1].earcon, sounds::Earcon::forklift_near);
-  EXPECT_EQ(told[0].scan[1].from, Eigen::Vector2d(3.3, 0.0));
+  ASSERT_EQ(last_.scan.size(), 4U);
+  EXPECT_EQ(last_.scan[1].earcon, sounds::Earcon::forklift_near);
+  EXPECT_EQ(last_.scan[1].from, Eigen::Vector2d(3.3, 0.0));
   now_.nearby = {{ThingClass::forklift, 5, 2.0, {-2.4, 0.0}, true},
                  {ThingClass::shelf, 3, 1.1, {0.0, 1.5}, false}};
-  asked_.question = Question::around;
-  EXPECT_EQ(pass(0.1), Texts{"shelf 1 meter left, forklift 2 meters behind"});
+  EXPECT_EQ(ask(Question::around), Texts{"shelf 1 meter left, forklift 2 meters behind"});
 }
 
 TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
@@ -101,10 +84,7 @@ TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
                  {ThingClass::shelf, 2, 1.2, {1.6, 0.1}, false}};
   now_.measured = Velocity{0.2, 0.0};
   now_.stops_in = 0.2;
-  const auto ask_around = [&] {
-    asked_.question = Question::around;
-    return pass(1.0).at(0);
-  };
+  const auto ask_around = [&] { return ask(Question::around, 1.0).at(0); };
   EXPECT_EQ(ask_around().substr(0, 3), "box");
   now_.connection.foresight = 0.5;
   EXPECT_EQ(ask_around(), "you stop 1 meter before shelf");
@@ -117,19 +97,16 @@ TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
 
 TEST_F(AnswersTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {
   now_.guidance.reset();
-  asked_.question = Question::way;
-  EXPECT_EQ(pass(4.0), Texts{});
+  EXPECT_EQ(ask(Question::way, 4.0), Texts{});
 }
 
 TEST_F(AnswersTest, an_answer_that_was_heard_is_not_given_again_for_a_later_cue_that_was_dropped) {
   under_way();
-  now_.guidance->state = Guidance::State::blocked;
-  now_.guidance->blocked_by = ThingClass::forklift;
+  block();
   pass(1.0);
-  asked_.question = Question::way;
-  pass(0.1);
-  policy_.note({{2, CueStage::started, Content(last_), last_.text}});
-  policy_.note({{3, CueStage::dropped, Content(last_), last_.text}});
+  ask(Question::way);
+  note(2, {CueStage::started});
+  note(3, {CueStage::dropped});
   EXPECT_EQ(pass(0.1), Texts{});
 }
 

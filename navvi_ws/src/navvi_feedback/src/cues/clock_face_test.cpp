@@ -38,37 +38,26 @@ TEST(ClockHour, floors_as_the_paper_prints_it) {
 }
 
 TEST(SteadyHour, holds_the_hour_while_the_angle_trembles_on_the_border) {
-  SteadyHour hour(Rounding::nearest, rad(5.0));
-  EXPECT_EQ(hour.update(rad(14.0)), 12);
-  EXPECT_EQ(hour.update(rad(16.0)), 12);
-  EXPECT_EQ(hour.update(rad(19.9)), 12);
-  EXPECT_EQ(hour.update(rad(20.1)), 1);
-  EXPECT_EQ(hour.update(rad(14.0)), 1);
-  EXPECT_EQ(hour.update(rad(10.1)), 1);
-  EXPECT_EQ(hour.update(rad(9.9)), 12);
-}
-
-TEST(SteadyHour, leaves_a_far_hour_at_once_and_survives_the_turn_through_six) {
-  SteadyHour hour(Rounding::nearest, rad(5.0));
-  EXPECT_EQ(hour.update(rad(0.0)), 12);
-  EXPECT_EQ(hour.update(rad(178.0)), 6);
-  EXPECT_EQ(hour.update(rad(-178.0)), 6);
-  EXPECT_EQ(hour.update(rad(-100.0)), 9);
-}
-
-TEST(SteadyHour, holds_nothing_across_an_unknown_angle) {
-  SteadyHour hour(Rounding::nearest, rad(5.0));
-  EXPECT_EQ(hour.update(rad(14.0)), 12);
-  EXPECT_FALSE(hour.update(std::nan("")));
-  EXPECT_EQ(hour.update(rad(16.0)), 1);
-}
-
-TEST(SteadyHour, floors_without_hysteresis_exactly_as_printed) {
-  SteadyHour hour(Rounding::floor, 0.0);
-  EXPECT_EQ(hour.update(rad(29.0)), 12);
-  EXPECT_EQ(hour.update(rad(31.0)), 1);
-  EXPECT_EQ(hour.update(rad(29.0)), 12);
-  EXPECT_EQ(hour.update(rad(-1.0)), 11);
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  struct Row {
+    const char* name;
+    Rounding rounding;
+    double hysteresis;                            // deg
+    std::vector<std::pair<double, int>> at_hour;  // deg; 0: no hour
+  };
+  for (const Row& row : std::vector<Row>{
+           {"and leaves it once it is clearly in another", Rounding::nearest, 5.0,
+            {{14.0, 12}, {16.0, 12}, {19.9, 12}, {20.1, 1}, {14.0, 1}, {10.1, 1}, {9.9, 12}}},
+           {"leaves a far one at once and survives the turn through six", Rounding::nearest, 5.0,
+            {{0.0, 12}, {178.0, 6}, {-178.0, 6}, {-100.0, 9}}},
+           {"but not across an unknown angle", Rounding::nearest, 5.0,
+            {{14.0, 12}, {kUnknown, 0}, {16.0, 1}}},
+           {"and floors without hysteresis exactly as printed", Rounding::floor, 0.0,
+            {{29.0, 12}, {31.0, 1}, {29.0, 12}, {-1.0, 11}}}}) {
+    SteadyHour hour(row.rounding, rad(row.hysteresis));
+    for (const auto& [degrees, told] : row.at_hour)
+      EXPECT_EQ(hour.update(rad(degrees)).value_or(0), told) << row.name << ", " << degrees;
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -55,162 +56,6 @@ TEST(CueQueue, starts_a_cue_at_once_and_ends_it_when_the_speaker_is_done) {
   EXPECT_TRUE(queue.empty());
 }
 
-TEST(CueQueue, lets_a_word_to_stop_wait_for_nothing_but_an_important_one) {
-  for (const bool asked : {false, true}) {
-    CueQueue queue;
-    Cue answer = cue("a", Priority::message);
-    answer.asked = asked;
-    (void)queue.update({answer, cue("b", Priority::message)}, false, 0.0);
-    const auto step = queue.update({cue("blocked", Priority::message)}, true, 0.1);
-    EXPECT_EQ(told(step), (Words{"queued blocked", "cut a", "started blocked"}));
-    EXPECT_EQ(told(queue.update({cue("blocked", Priority::message)}, true, 0.2)),
-              Words{"queued blocked"})
-        << "it does not cut itself";
-  }
-  CueQueue queue;
-  (void)queue.update({cue("s", Priority::important)}, false, 0.0);
-  EXPECT_EQ(told(queue.update({cue("blocked", Priority::message)}, true, 0.1)),
-            Words{"queued blocked"});
-}
-
-TEST(CueQueue, lets_a_higher_priority_cut_a_lower_one) {
-  CueQueue queue;
-  (void)queue.update({cue("a", Priority::text)}, false, 0.0);
-  const auto step = queue.update({cue("b", Priority::message)}, true, 0.1);
-  EXPECT_EQ(told(step), (Words{"queued b", "cut a", "started b"}));
-  EXPECT_TRUE(step.stop);
-  EXPECT_EQ(step.start, "text of b");
-}
-
-TEST(CueQueue, drops_the_ways_that_wait_for_a_word_to_stop) {
-  CueQueue queue;
-  (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
-  (void)queue.update({cue("direction", Priority::text), cue("welcome", Priority::text)}, true, 0.1);
-  EXPECT_EQ(told(queue.update({cue("obstacle_stop", Priority::important)}, true, 0.2)),
-            (Words{"queued obstacle_stop", "dropped direction"}));
-}
-
-TEST(CueQueue, keeps_what_ends_a_wait_and_says_it_before_its_equals) {
-  CueQueue queue;
-  Cue on = cue("straight", Priority::message);
-  on.goes_on = true;
-  (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
-  (void)queue.update({cue("a", Priority::message), cue("b", Priority::message)}, true, 0.1);
-  EXPECT_EQ(told(queue.update({on}, true, 0.2)), (Words{"queued straight", "dropped b"}));
-  EXPECT_EQ(told(queue.update({}, false, 0.3)), (Words{"ended hit", "started straight"}));
-}
-
-TEST(CueQueue, says_no_way_that_waited_behind_what_ends_a_wait_and_was_not_heard) {
-  for (const bool cut : {false, true}) {
-    CueQueue queue;
-    Cue on = cue("make_room", Priority::message);
-    on.goes_on = true;
-    if (!cut) (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
-    (void)queue.update({on}, !cut, 0.1);
-    (void)queue.update({cue("direction", Priority::text, 9.0)}, true, 0.2);
-    const auto step = queue.update({cue("s", Priority::important)}, true, cut ? 0.3 : 2.2);
-    EXPECT_EQ(told(step),
-              cut ? (Words{"queued s", "cut make_room", "dropped direction", "started s"})
-                  : (Words{"dropped make_room", "dropped direction", "queued s"}));
-  }
-}
-
-TEST(CueQueue, replaces_what_ends_a_wait_only_by_what_ends_it_too) {
-  CueQueue queue;
-  Cue on = cue("direction", Priority::message);
-  on.goes_on = true;
-  (void)queue.update({cue("hit", Priority::important), on}, false, 0.0);
-  EXPECT_EQ(told(queue.update({cue("direction", Priority::text)}, true, 0.1)),
-            (Words{"queued direction", "dropped direction"}));
-  EXPECT_EQ(told(queue.update({on}, true, 0.2)), (Words{"queued direction", "dropped direction"}));
-  EXPECT_EQ(told(queue.update({}, false, 0.3)), (Words{"ended hit", "started direction"}));
-}
-
-TEST(CueQueue, never_waits_to_say_both_that_a_goal_is_seen_and_that_it_is_not) {
-  CueQueue queue;
-  (void)queue.update({cue("hit", Priority::important)}, false, 0.0);
-  (void)queue.update({cue("goal_seen", Priority::text)}, true, 0.1);
-  EXPECT_EQ(told(queue.update({cue("toward_goal", Priority::text)}, true, 0.2)),
-            (Words{"queued toward_goal", "dropped goal_seen"}));
-}
-
-TEST(CueQueue, answers_at_once_whatever_but_safety_is_spoken_and_only_the_last_question) {
-  const auto answer = [](const std::string& kind) {
-    Cue asked = cue(kind, Priority::message);
-    asked.asked = true;
-    return asked;
-  };
-  CueQueue queue;
-  (void)queue.update({cue("a", Priority::message), cue("b", Priority::message)}, false, 0.0);
-  EXPECT_EQ(told(queue.update({answer("c")}, true, 0.1)),
-            (Words{"queued c", "cut a", "started c"}));
-  EXPECT_EQ(told(queue.update({answer("d")}, true, 0.2)),
-            (Words{"queued d", "cut c", "started d"}));
-  EXPECT_EQ(told(queue.update({cue("s", Priority::important)}, true, 0.3)),
-            (Words{"queued s", "cut d", "started s"}));
-  EXPECT_EQ(told(queue.update({answer("e")}, true, 0.4)), (Words{"queued e"}));
-  EXPECT_EQ(told(queue.update({answer("f")}, true, 0.5)), (Words{"queued f", "dropped e"}));
-  EXPECT_EQ(told(queue.update({}, false, 0.6)), (Words{"ended s", "started f"}));
-}
-
-TEST(CueQueue, never_lets_an_equal_one_cut) {
-  CueQueue queue;
-  (void)queue.update({cue("a", Priority::text)}, false, 0.0);
-  EXPECT_EQ(told(queue.update({cue("b", Priority::text)}, true, 0.1)), (Words{"queued b"}));
-  EXPECT_EQ(told(queue.update({}, false, 0.2)), (Words{"ended a", "started b"}));
-}
-
-TEST(CueQueue, never_cuts_an_important_one) {
-  CueQueue queue;
-  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
-  EXPECT_EQ(
-      told(queue.update({cue("b", Priority::important), cue("c", Priority::message)}, true, 0.1)),
-      (Words{"queued b", "queued c"}));
-}
-
-TEST(CueQueue, drops_what_waited_too_long) {
-  CueQueue queue;
-  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
-  (void)queue.update({cue("b", Priority::text, 1.0)}, true, 0.1);
-  EXPECT_EQ(told(queue.update({}, false, 1.2)), (Words{"ended a", "dropped b"}));
-}
-
-TEST(CueQueue, replaces_a_waiting_cue_by_a_newer_of_its_kind) {
-  CueQueue queue;
-  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
-  (void)queue.update({cue("b", Priority::text)}, true, 0.1);
-  EXPECT_EQ(told(queue.update({cue("b", Priority::text)}, true, 0.2)),
-            (Words{"queued b", "dropped b"}));
-}
-
-TEST(CueQueue, drops_that_a_device_is_back_once_it_is_lost_again) {
-  CueQueue queue;
-  (void)queue.update({cue("keyboard_lost", Priority::important)}, false, 0.0);
-  EXPECT_EQ(told(queue.update({cue("keyboard_back", Priority::message)}, true, 0.1)),
-            (Words{"queued keyboard_back"}));
-  EXPECT_EQ(told(queue.update({cue("keyboard_lost", Priority::important)}, true, 0.2)),
-            (Words{"queued keyboard_lost", "dropped keyboard_back"}));
-}
-
-TEST(CueQueue, keeps_important_cues_of_one_kind_that_say_different_things) {
-  CueQueue queue;
-  Cue box = cue("hit", Priority::important);
-  Cue shelf = box;
-  shelf.text = "text of hit, another";
-  EXPECT_EQ(told(queue.update({box, shelf, shelf}, false, 0.0)),
-            (Words{"queued hit", "queued hit", "queued hit", "dropped hit", "started hit"}));
-  EXPECT_EQ(queue.update({}, false, 0.5).start, "text of hit, another");
-}
-
-TEST(CueQueue, keeps_at_most_two_waiting_below_important_and_the_greatest_of_them) {
-  CueQueue queue;
-  (void)queue.update({cue("a", Priority::important)}, false, 0.0);
-  (void)queue.update({cue("b", Priority::notification), cue("c", Priority::text)}, true, 0.1);
-  EXPECT_EQ(told(queue.update({cue("d", Priority::message)}, true, 0.2)),
-            (Words{"queued d", "dropped b"}));
-  EXPECT_EQ(told(queue.update({cue("e", Priority::important)}, true, 0.3)), (Words{"queued e"}));
-}
-
 TEST(CueQueue, ends_all_at_the_shut_down) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::text), cue("b", Priority::text)}, false, 0.0);
@@ -218,6 +63,123 @@ TEST(CueQueue, ends_all_at_the_shut_down) {
   EXPECT_TRUE(step.stop);
   EXPECT_EQ(told(step), (Words{"cut a", "dropped b"}));
   EXPECT_TRUE(queue.empty());
+}
+
+Cue answer(const std::string& name) {
+  Cue asked = cue(name, Priority::message);
+  asked.asked = true;
+  return asked;
+}
+/// It ends a wait.
+Cue on(const std::string& name) {
+  Cue ends = cue(name, Priority::message);
+  ends.goes_on = true;
+  return ends;
+}
+Cue text(const std::string& name, double max_age = 2.0) {
+  return cue(name, Priority::text, max_age);
+}
+Cue message(const std::string& name) { return cue(name, Priority::message); }
+Cue important(const std::string& name) { return cue(name, Priority::important); }
+
+/// What comes 0.1 s after the step before, and what is told of it.
+struct Beat {
+  std::vector<Cue> fresh;
+  Words told;
+  bool speaks = true;  ///< the speaker is still busy
+  double after = 0.1;  ///< s
+};
+struct Row {
+  const char* rule;
+  std::vector<Cue> first;
+  std::vector<Beat> then;
+};
+
+const std::vector<Row> kRules = {
+    {"a word to stop cuts words", {message("a"), message("b")},
+     {{{message("blocked")}, {"queued blocked", "cut a", "started blocked"}},
+      {{message("blocked")}, {"queued blocked"}}}},  // it does not cut itself
+    {"a word to stop cuts an answer", {answer("a"), message("b")},
+     {{{message("blocked")}, {"queued blocked", "cut a", "started blocked"}}}},
+    {"a word to stop waits for an important one", {important("s")},
+     {{{message("blocked")}, {"queued blocked"}}}},
+    {"a higher priority cuts a lower one", {text("a")},
+     {{{message("b")}, {"queued b", "cut a", "started b"}}}},
+    {"an equal one never cuts", {text("a")},
+     {{{text("b")}, {"queued b"}}, {{}, {"ended a", "started b"}, false}}},
+    {"an important one is never cut", {important("a")},
+     {{{important("b"), message("c")}, {"queued b", "queued c"}}}},
+    {"ways that wait are dropped for a word to stop", {important("hit")},
+     {{{text("direction"), text("welcome")}, {"queued direction", "queued welcome"}},
+      {{important("obstacle_stop")}, {"queued obstacle_stop", "dropped direction"}}}},
+    {"what ends a wait is kept and said before its equals", {important("hit")},
+     {{{message("a"), message("b")}, {"queued a", "queued b"}},
+      {{on("straight")}, {"queued straight", "dropped b"}},
+      {{}, {"ended hit", "started straight"}, false}}},
+    {"no way is said that waited behind what ends a wait and was cut", {on("make_room")},
+     {{{text("direction", 9.0)}, {"queued direction"}},
+      {{important("s")}, {"queued s", "cut make_room", "dropped direction", "started s"}}}},
+    {"no way is said that waited behind what ends a wait and was dropped", {important("hit")},
+     {{{on("make_room")}, {"queued make_room"}},
+      {{text("direction", 9.0)}, {"queued direction"}},
+      {{important("s")}, {"dropped make_room", "dropped direction", "queued s"}, true, 2.0}}},
+    {"what ends a wait is replaced only by what ends it too",
+     {important("hit"), on("direction")},
+     {{{text("direction")}, {"queued direction", "dropped direction"}},
+      {{on("direction")}, {"queued direction", "dropped direction"}},
+      {{}, {"ended hit", "started direction"}, false}}},
+    {"that a goal is seen does not wait beside that it is not", {important("hit")},
+     {{{text("goal_seen")}, {"queued goal_seen"}},
+      {{text("toward_goal")}, {"queued toward_goal", "dropped goal_seen"}}}},
+    {"an answer comes at once, before all but safety, to the last question alone",
+     {message("a"), message("b")},
+     {{{answer("c")}, {"queued c", "cut a", "started c"}},
+      {{answer("d")}, {"queued d", "cut c", "started d"}},
+      {{important("s")}, {"queued s", "cut d", "started s"}},
+      {{answer("e")}, {"queued e"}},
+      {{answer("f")}, {"queued f", "dropped e"}},
+      {{}, {"ended s", "started f"}, false}}},
+    {"a newer one of its kind replaces what waits", {important("a")},
+     {{{text("b")}, {"queued b"}}, {{text("b")}, {"queued b", "dropped b"}}}},
+    {"that a device is back is dropped once it is lost again", {important("keyboard_lost")},
+     {{{message("keyboard_back")}, {"queued keyboard_back"}},
+      {{important("keyboard_lost")}, {"queued keyboard_lost", "dropped keyboard_back"}}}},
+    {"two wait at most below important, the greatest", {important("a")},
+     {{{cue("b", Priority::notification), text("c")}, {"queued b", "queued c"}},
+      {{message("d")}, {"queued d", "dropped b"}},
+      {{important("e")}, {"queued e"}}}}};
+
+TEST(CueQueue, says_drops_and_cuts_by_the_rules_of_the_table) {
+  for (const Row& row : kRules) {
+    SCOPED_TRACE(row.rule);
+    CueQueue queue;
+    (void)queue.update(row.first, false, 0.0);
+    double time = 0.0;
+    for (const Beat& beat : row.then) {
+      time += beat.after;
+      const auto step = queue.update(beat.fresh, beat.speaks, time);
+      EXPECT_EQ(told(step), beat.told);
+      const auto cut = [](const CueEvent& event) { return event.stage == CueStage::cut; };
+      EXPECT_EQ(step.stop, std::any_of(step.events.begin(), step.events.end(), cut));
+    }
+  }
+}
+
+TEST(CueQueue, drops_what_waited_too_long) {
+  CueQueue queue;
+  (void)queue.update({important("a")}, false, 0.0);
+  (void)queue.update({text("b", 1.0)}, true, 0.1);
+  EXPECT_EQ(told(queue.update({}, false, 1.2)), (Words{"ended a", "dropped b"}));
+}
+
+TEST(CueQueue, keeps_important_cues_of_one_kind_that_say_different_things) {
+  CueQueue queue;
+  Cue box = important("hit");
+  Cue shelf = box;
+  shelf.text = "text of hit, another";
+  EXPECT_EQ(told(queue.update({box, shelf, shelf}, false, 0.0)),
+            (Words{"queued hit", "queued hit", "queued hit", "dropped hit", "started hit"}));
+  EXPECT_EQ(queue.update({}, false, 0.5).start, "text of hit, another");
 }
 
 /// A speaker that takes some ticks for each text.
@@ -321,28 +283,23 @@ CueEvent event(std::uint32_t id, CueStage stage) {
   return event;
 }
 
-std::vector<CueStage> stages(const std::vector<CueEvent>& events) {
+/// \return the stages of these that count as heard, in order
+std::vector<CueStage> stages(HeardWords& words, const std::vector<CueEvent>& events, bool hears) {
   std::vector<CueStage> result;
-  for (const CueEvent& event : events) result.push_back(event.stage);
+  for (const CueEvent& event : words.of(events, hears)) result.push_back(event.stage);
   return result;
 }
 
-TEST(HeardWordsTest, are_those_that_start_while_somebody_hears) {
+TEST(HeardWordsTest, are_those_that_start_while_somebody_hears_and_no_others) {
+  using Stages = std::vector<CueStage>;
   HeardWords words;
-  EXPECT_EQ(stages(words.of({event(1, CueStage::queued), event(1, CueStage::started)}, true)),
-            (std::vector<CueStage>{CueStage::queued, CueStage::started}));
-  EXPECT_EQ(stages(words.of({event(1, CueStage::ended)}, true)),
-            std::vector<CueStage>{CueStage::ended});
-}
-
-TEST(HeardWordsTest, leave_out_what_began_without_a_device) {
-  HeardWords words;
-  EXPECT_EQ(stages(words.of({event(1, CueStage::started)}, false)),
-            std::vector<CueStage>{CueStage::dropped});
-  // The device is back before the words end; nobody heard how they began.
-  EXPECT_TRUE(words.of({event(1, CueStage::ended)}, true).empty());
-  EXPECT_EQ(stages(words.of({event(2, CueStage::started)}, true)),
-            std::vector<CueStage>{CueStage::started});
+  EXPECT_EQ(stages(words, {event(1, CueStage::queued), event(1, CueStage::started)}, true),
+            (Stages{CueStage::queued, CueStage::started}));
+  EXPECT_EQ(stages(words, {event(1, CueStage::ended)}, true), Stages{CueStage::ended});
+  EXPECT_EQ(stages(words, {event(2, CueStage::started)}, false), Stages{CueStage::dropped});
+  EXPECT_EQ(stages(words, {event(2, CueStage::ended)}, true), Stages{})
+      << "the device is back before the words end, but nobody heard how they began";
+  EXPECT_EQ(stages(words, {event(3, CueStage::started)}, true), Stages{CueStage::started});
 }
 
 }  // namespace

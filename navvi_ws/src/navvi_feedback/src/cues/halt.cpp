@@ -20,7 +20,7 @@ constexpr double kAside = 0.5;
 
 bool clear(const Observation& now) {
   if (now.guidance && std::abs(now.guidance->steer_angle) > kAside) return true;
-  return !mover_ahead(now.nearby, kAhead);
+  return !anything_ahead(now.nearby, kAhead, true);
 }
 
 /// By their own hand; but back from what was hit is not on.

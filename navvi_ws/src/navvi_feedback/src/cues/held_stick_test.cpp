@@ -38,15 +38,6 @@ TEST_F(HeldStickTest, asks_for_a_stick_that_is_held_from_the_beginning_again_and
   EXPECT_EQ(pass(10.0), 0);
 }
 
-TEST_F(HeldStickTest, asks_for_the_button_of_hold_to_drive_before_the_stick) {
-  now_.stick_disabled = true;
-  Utterances told;
-  for (const double end = time_ + 1.0; time_ < end; time_ += 0.02)
-    for (const Utterance& utterance : held_.update(now_, time_)) told.push_back(utterance);
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].kind, CueKind::hold_to_drive);
-}
-
 TEST_F(HeldStickTest, asks_while_a_shut_gate_is_driven_against) {
   for (const auto gate : {DriveState::State::waiting, DriveState::State::stopped}) {
     now_.gate = gate;

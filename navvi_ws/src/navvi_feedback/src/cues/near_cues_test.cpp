@@ -12,10 +12,12 @@ TEST_F(NearCuesTest, says_nothing_where_nothing_is_near) {
   EXPECT_EQ(pass(1.0, {shelf(1.01, kLeft)}), Sides{});
 }
 
-TEST_F(NearCuesTest, says_once_that_a_shelf_is_within_a_metre_and_on_which_side) {
+TEST_F(NearCuesTest, says_once_that_a_shelf_or_wall_is_within_a_metre_and_on_which_side) {
   EXPECT_EQ(pass(5.0, {shelf(0.99, kLeft)}), Sides{Side::left});
   EXPECT_EQ(Content(last_), Content(CueKind::near, About::shelf));
   EXPECT_FALSE(last_.priority);
+  EXPECT_EQ(pass(1.0, {{ThingClass::wall, 1, 0.5, kRight, false}}), Sides{Side::right});
+  EXPECT_EQ(Content(last_), Content(CueKind::near, About::wall));
 }
 
 TEST_F(NearCuesTest, says_nothing_new_while_the_gap_trembles_on_the_border) {
@@ -24,14 +26,6 @@ TEST_F(NearCuesTest, says_nothing_new_while_the_gap_trembles_on_the_border) {
     for (const Side side : pass(0.1, {shelf(i % 2 == 0 ? 0.98 : 1.15, kLeft)}))
       said.push_back(side);
   EXPECT_EQ(said, Sides{Side::left});
-}
-
-TEST_F(NearCuesTest, says_it_again_after_the_shelf_was_gone_for_a_while) {
-  pass(1.0, {shelf(0.9, kLeft)});
-  pass(1.0, {});
-  EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{});
-  pass(9.0, {});
-  EXPECT_EQ(pass(1.0, {shelf(0.9, kLeft)}), Sides{Side::left});
 }
 
 TEST_F(NearCuesTest, says_it_once_more_when_the_shelf_is_close) {
@@ -58,15 +52,15 @@ TEST_F(NearCuesTest, waits_for_the_voice_unless_the_robot_runs_into_it) {
   EXPECT_EQ(last_.priority, Priority::message);
 }
 
-TEST_F(NearCuesTest, names_what_is_behind_only_while_the_robot_drives_back) {
-  EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{});
-  now_.measured->linear = -0.5;
-  EXPECT_EQ(pass(1.0, {shelf(0.9, kBehind)}), Sides{Side::behind});
-}
-
-TEST_F(NearCuesTest, speaks_of_walls_too) {
-  EXPECT_EQ(pass(1.0, {{ThingClass::wall, 1, 0.5, kRight, false}}), Sides{Side::right});
-  EXPECT_EQ(Content(last_), Content(CueKind::near, About::wall));
+TEST_F(NearCuesTest, names_what_is_behind_only_while_the_robot_drives_back_and_nothing_passed) {
+  const NearThing worker{ThingClass::worker, 3, 0.6, kBehind, true};
+  const NearThing box{ThingClass::box, 4, 0.6, kLeft, false};
+  for (const std::vector<NearThing>& things : {{shelf(0.9, kBehind)}, std::vector{worker, box}}) {
+    now_.measured->linear = 0.5;
+    EXPECT_EQ(pass(1.0, things), Sides{});
+    now_.measured->linear = -0.5;
+    EXPECT_EQ(pass(1.0, things), Sides{Side::behind});
+  }
 }
 
 TEST_F(NearCuesTest, names_a_thing_once_that_the_robot_drives_towards) {
@@ -80,18 +74,6 @@ TEST_F(NearCuesTest, names_a_thing_once_that_the_robot_drives_towards) {
   EXPECT_EQ(last_.priority, Priority::message);
   EXPECT_EQ(pass(1.0, {{ThingClass::box, 4, 0.8, kAhead, false}}), Sides{Side::ahead});
   EXPECT_EQ(pass(1.0, {{ThingClass::box, 5, 1.1, kAhead, false}}), Sides{}) << "too far";
-}
-
-TEST_F(NearCuesTest,
-       names_a_thing_behind_only_while_the_robot_drives_back_and_none_that_is_passed) {
-  now_.measured->linear = 0.5;
-  EXPECT_EQ(pass(1.0, {{ThingClass::worker, 3, 0.6, kBehind, true},
-                       {ThingClass::box, 4, 0.6, kLeft, false}}),
-            Sides{});
-  now_.measured->linear = -0.5;
-  EXPECT_EQ(pass(1.0, {{ThingClass::worker, 3, 0.6, kBehind, true},
-                       {ThingClass::box, 4, 0.6, kLeft, false}}),
-            Sides{Side::behind});
 }
 
 TEST_F(NearCuesTest, names_what_moves_about_once_more_if_the_robot_may_brush_it) {
@@ -114,21 +96,28 @@ TEST_F(NearCuesTest, names_by_its_side_what_is_ahead_but_will_be_passed) {
 
 TEST_F(NearCuesTest, names_a_thing_again_only_after_it_was_gone_for_a_while) {
   now_.measured->linear = 0.5;
-  const auto box = [](double gap) { return NearThing{ThingClass::box, 4, gap, kAhead, false}; };
-  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
-  EXPECT_EQ(pass(3.0, {box(1.15)}), Sides{});
-  EXPECT_EQ(pass(1.0, {box(1.3)}), Sides{});
-  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{});
-  EXPECT_EQ(pass(8.5, {}), Sides{});
-  EXPECT_EQ(pass(1.0, {box(0.9)}), Sides{Side::ahead});
+  for (NearThing thing : {NearThing{ThingClass::box, 4, 0.9, kAhead, false}, shelf(0.9, kLeft)}) {
+    EXPECT_EQ(pass(1.0, {thing}).size(), 1U);
+    thing.gap = 1.15;
+    EXPECT_EQ(pass(3.0, {thing}), Sides{});
+    thing.gap = 1.3;
+    EXPECT_EQ(pass(1.0, {thing}), Sides{});
+    thing.gap = 0.9;
+    EXPECT_EQ(pass(1.0, {thing}), Sides{});
+    EXPECT_EQ(pass(9.0, {}), Sides{});
+    EXPECT_EQ(pass(1.0, {thing}).size(), 1U);
+  }
 }
 
-TEST_F(NearCuesTest, adds_nothing_to_a_collision_with_a_thing) {
+TEST_F(NearCuesTest, adds_nothing_to_a_collision) {
   now_.measured->linear = 0.5;
-  now_.contacts = {{ThingClass::box, kAhead, 4}};
-  EXPECT_EQ(pass(0.02, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
-  now_.contacts.clear();
-  EXPECT_EQ(pass(5.0, {{ThingClass::box, 4, 0.0, kAhead, false}}), Sides{});
+  const NearThing box{ThingClass::box, 4, 0.0, kAhead, false};
+  for (const NearThing& hit : {box, shelf(0.0, kLeft)}) {
+    now_.contacts = {{hit.thing_class, hit.nearest, hit.id}};
+    EXPECT_EQ(pass(0.02, {hit}), Sides{});
+    now_.contacts.clear();
+    EXPECT_EQ(pass(5.0, {hit}), Sides{});
+  }
 }
 
 TEST_F(NearCuesTest, leaves_everything_else_to_the_hands_where_that_is_wanted) {
@@ -139,13 +128,6 @@ TEST_F(NearCuesTest, leaves_everything_else_to_the_hands_where_that_is_wanted) {
   EXPECT_EQ(pass(1.0, {{ThingClass::forklift, 1, 0.5, kAhead, true},
                        {ThingClass::box, 2, 0.2, kLeft, false}}),
             Sides{});
-}
-
-TEST_F(NearCuesTest, adds_nothing_to_a_collision) {
-  now_.contacts = {{ThingClass::shelf, kLeft}};
-  EXPECT_EQ(pass(0.02, {shelf(0.0, kLeft)}), Sides{});
-  now_.contacts.clear();
-  EXPECT_EQ(pass(5.0, {shelf(0.0, kLeft)}), Sides{});
 }
 
 }  // namespace

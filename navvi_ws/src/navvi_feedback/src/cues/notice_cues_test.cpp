@@ -19,20 +19,17 @@ TEST_F(NoticeCuesTest, says_a_notice_once) {
   EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
-TEST_F(NoticeCuesTest, names_a_zone) {
+TEST_F(NoticeCuesTest, names_a_zone_and_the_person_whose_settings_are_used) {
   under_way();
   now_.zone = "press shop";
-  now_.notices = {{CueKind::notice, About::zone_keep_out}};
-  EXPECT_EQ(pass(3.0), Texts{"closed zone, press shop"});
-  now_.notices = {{CueKind::notice, About::zone_slow}};
-  EXPECT_EQ(pass(3.0), Texts{"slow zone, press shop"});
-}
-
-TEST_F(NoticeCuesTest, names_the_person_whose_settings_are_used) {
-  under_way();
   now_.devices.person = "sub-01_b";
-  now_.notices = {{CueKind::settings, About::of}};
-  EXPECT_EQ(pass(1.0), Texts{"settings of sub-01 b"});
+  for (const auto& [notice, text] : std::vector<std::pair<Content, const char*>>{
+           {{CueKind::notice, About::zone_keep_out}, "closed zone, press shop"},
+           {{CueKind::notice, About::zone_slow}, "slow zone, press shop"},
+           {{CueKind::settings, About::of}, "settings of sub-01 b"}}) {
+    now_.notices = {notice};
+    EXPECT_EQ(pass(3.0), Texts{text});
+  }
 }
 
 TEST_F(NoticeCuesTest, gives_no_direction_right_after_the_end_of_a_trial) {

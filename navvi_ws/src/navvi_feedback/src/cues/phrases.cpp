@@ -59,32 +59,13 @@ std::set<std::string> word_keys() {
 }
 
 /// What the picture shows; navvi_rviz reads it, too.
-const std::set<std::string> kPicture = {"drive",
-                                        "drive_no_sound",
-                                        "no_sound",
-                                        "to_go",
-                                        "begin",
-                                        "end",
-                                        "repeat",
-                                        "goal",
-                                        "around",
-                                        "chase",
-                                        "top",
-                                        "forward",
-                                        "rviz",
-                                        "settings",
-                                        "vision",
-                                        "down",
-                                        "up",
-                                        "choose",
-                                        "back",
-                                        "key",
-                                        "plate_goal",
-                                        "vision_high_contrast",
-                                        "vision_yellow_on_black",
-                                        "vision_large",
-                                        "vision_color_blind",
-                                        "vision_paper"};
+const std::set<std::string> kPicture = [] {
+  std::istringstream words(
+      "drive drive_no_sound no_sound to_go begin end repeat goal around chase top forward rviz "
+      "settings vision down up choose back key plate_goal vision_high_contrast "
+      "vision_yellow_on_black vision_large vision_color_blind vision_paper");
+  return std::set<std::string>(std::istream_iterator<std::string>(words), {});
+}();
 
 /// A phrase stands under its content, or under the kind for all that this may be about.
 bool may_be_general(const Content& content) {

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <navvi_config/reader.hpp>
+#include <navvi_files/files.hpp>
 #include <set>
-#include <sstream>
+#include <tuple>
+
+#include "temp_folder.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
@@ -31,32 +33,7 @@ std::vector<WordingConfig> all_wordings() {
   return all;
 }
 
-std::string english() {
-  std::ifstream file(kEnglish);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// A phrase file that is gone with the object.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text) {
-    std::string name = (fs::temp_directory_path() / "navvi_phrases_XXXXXX").string();
-    const int handle = mkstemp(name.data());
-    EXPECT_GE(handle, 0);
-    path_ = name;
-    std::ofstream(path_) << text;
-  }
-  ~TemporaryFile() { fs::remove(path_); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
+std::string english() { return navvi_files::read_file(kEnglish).value(); }
 
 std::string replaced(const std::string& from, const std::string& to) {
   std::string text = english();
@@ -67,9 +44,9 @@ std::string replaced(const std::string& from, const std::string& to) {
 
 /// The sentence with which `text` is refused; empty if it is taken.
 std::string refusal(const std::string& text) {
-  const TemporaryFile file(text);
+  const navvi_test::TempFolder folder;
   try {
-    const Phrases phrases(file.path());
+    const Phrases phrases(folder.write("a.yaml", text));
     return "";
   } catch (const navvi_config::ConfigError& error) {
     return error.what();
@@ -93,77 +70,79 @@ Fillings everything() {
   return fillings;
 }
 
-TEST(Phrases, of_every_kind_can_be_spoken_in_each_language_and_wording) {
-  for (const fs::path& language : {kEnglish, kSpanish})
-    for (const WordingConfig& worded : all_wordings()) {
-      const Phrases phrases(language, worded);
-      for (const Content& content : navvi_types::contents())
-        EXPECT_TRUE(speakable(phrases.say(content, everything()))) << to_string(content);
-    }
-}
-
-TEST(Phrases, say_what_people_and_simulated_operators_listen_for) {
-  const Phrases phrases(kEnglish);
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "turn to 3 o'clock, 8 meters");
-  EXPECT_EQ(phrases.say(CueKind::straight, everything()), "drive straight, 8 meters");
-  EXPECT_EQ(phrases.say(CueKind::turn_ahead, everything()), "in 8 meters, turn to 3 o'clock");
-  EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn to 3 o'clock now");
-  EXPECT_EQ(phrases.say(CueKind::start, everything()),
-            "the goal is 8 meters along the path, at 3 o'clock");
-  EXPECT_EQ(phrases.say(CueKind::near, everything()), "pallet robot on your left");
-  EXPECT_EQ(phrases.say(CueKind::obstacle_stop, everything()), "stop, pallet robot on your left");
-  EXPECT_EQ(phrases.say(CueKind::close, everything()), "pallet robot very close, on your left");
-  EXPECT_EQ(phrases.say(CueKind::release_stick), "release the stick");
-  EXPECT_EQ(phrases.say(CueKind::collision, everything()), "hit a pallet robot on your left");
-  EXPECT_EQ(phrases.say(CueKind::stuck, everything()), "stuck, pallet robot left, try 3 o'clock");
-  EXPECT_EQ(phrases.say(CueKind::arrived), "you have reached the goal");
-}
-
-TEST(Phrases, call_a_leg_straight_ahead_in_every_wording_but_a_place_by_its_hour) {
-  Fillings ahead = everything();
+TEST(Phrases, say_what_the_table_says) {
+  const Fillings all = everything();
+  Fillings ahead = all, left = all, keys = all, nameless = all;
   ahead.hour = 12;
-  for (const char* directions : {"clock", "left_right", "degrees"})
-    EXPECT_EQ(Phrases(kEnglish, wording(directions)).say(CueKind::rerouted, ahead),
-              "new route, straight ahead, 8 meters");
-  const Phrases phrases(kEnglish);
-  EXPECT_EQ(phrases.say(CueKind::make_room, ahead),
-            "move to 12 o'clock, 8 meters, to let a pallet robot pass");
-  EXPECT_EQ(phrases.say(CueKind::goal_info, ahead), "the goal is 8 meters on, at 12 o'clock");
-  EXPECT_EQ(phrases.say(CueKind::rerouted, everything()), "new route, 3 o'clock, 8 meters");
-}
-
-TEST(Phrases, offer_left_and_right_instead_of_the_clock) {
-  const Phrases phrases(kEnglish, wording("left_right"));
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "turn right, 8 meters");
-  EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn right now");
-}
-
-TEST(Phrases, count_degrees_to_either_side) {
-  const Phrases phrases(kEnglish, wording("degrees"));
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "turn 90 degrees right, 8 meters");
-  EXPECT_EQ(phrases.say(CueKind::turn_now, everything()), "turn 90 degrees right now");
-  Fillings left = everything();
   left.hour = 10;
-  EXPECT_EQ(phrases.say(CueKind::rerouted, left), "new route, 60 degrees left, 8 meters");
+  keys.keys = true;
+  nameless.thing = ThingClass::other;
+  struct Row {
+    Phrases phrases;
+    std::vector<std::tuple<Content, Fillings, const char*>> sayings;
+  };
+  for (const Row& row : std::vector<Row>{
+           {Phrases(kEnglish),
+            {{CueKind::direction, all, "turn to 3 o'clock, 8 meters"},
+             {CueKind::straight, all, "drive straight, 8 meters"},
+             {CueKind::turn_ahead, all, "in 8 meters, turn to 3 o'clock"},
+             {CueKind::turn_now, all, "turn to 3 o'clock now"},
+             {CueKind::start, all, "the goal is 8 meters along the path, at 3 o'clock"},
+             {CueKind::near, all, "pallet robot on your left"},
+             {CueKind::obstacle_stop, all, "stop, pallet robot on your left"},
+             {CueKind::close, all, "pallet robot very close, on your left"},
+             {CueKind::release_stick, {}, "release the stick"},
+             {CueKind::collision, all, "hit a pallet robot on your left"},
+             {CueKind::collision, nameless, "hit something on your left"},
+             {CueKind::obstacle_comes, nameless, "something coming, on your left"},
+             {CueKind::make_room, nameless, "move to 3 o'clock, 8 meters, to let something pass"},
+             {CueKind::stuck, all, "stuck, pallet robot left, try 3 o'clock"},
+             {CueKind::arrived, {}, "you have reached the goal"},
+             {CueKind::robot_stopped, {}, "robot stopped, release the stick"},
+             {CueKind::robot_stopped, keys, "robot stopped, release the keys"},
+             {{CueKind::menu, About::setting_open},
+              keys,
+              "volume, 2 percent, page up for more, page down for less"},
+             // A leg is straight ahead, but a place is at its hour.
+             {CueKind::rerouted, all, "new route, 3 o'clock, 8 meters"},
+             {CueKind::rerouted, ahead, "new route, straight ahead, 8 meters"},
+             {CueKind::make_room,
+              ahead,
+              "move to 12 o'clock, 8 meters, to let a pallet robot pass"},
+             {CueKind::goal_info, ahead, "the goal is 8 meters on, at 12 o'clock"}}},
+           {Phrases(kEnglish, wording("left_right")),
+            {{CueKind::direction, all, "turn right, 8 meters"},
+             {CueKind::turn_now, all, "turn right now"},
+             {CueKind::rerouted, ahead, "new route, straight ahead, 8 meters"}}},
+           {Phrases(kEnglish, wording("degrees")),
+            {{CueKind::direction, all, "turn 90 degrees right, 8 meters"},
+             {CueKind::turn_now, all, "turn 90 degrees right now"},
+             {CueKind::rerouted, left, "new route, 60 degrees left, 8 meters"},
+             {CueKind::rerouted, ahead, "new route, straight ahead, 8 meters"}}},
+           {Phrases(kEnglish, wording("clock", "meters", "brief")),
+            {{CueKind::direction, all, "3 o'clock"},
+             {CueKind::turn_ahead, all, "in 8 meters, 3 o'clock"}}},
+           {Phrases(kEnglish, wording("clock", "meters", "full")),
+            {{CueKind::blocked, all, "wait, pallet robot in the way, I will say when to go on"}}},
+           {Phrases(kSpanish),
+            {{CueKind::direction, all, "gire hacia las 3, 8 metros"},
+             {CueKind::release_stick, keys, "suelte las teclas"},
+             {CueKind::collision, nameless, "choque, algo a su izquierda"}}}})
+    for (const auto& [content, fillings, text] : row.sayings)
+      EXPECT_EQ(row.phrases.say(content, fillings), text);
 }
 
 TEST(Phrases, are_shorter_or_longer_where_that_is_wanted) {
-  const Phrases brief(kEnglish, wording("clock", "meters", "brief"));
-  EXPECT_EQ(brief.say(CueKind::direction, everything()), "3 o'clock");
-  EXPECT_EQ(brief.say(CueKind::turn_ahead, everything()), "in 8 meters, 3 o'clock");
-  const Phrases full(kEnglish, wording("clock", "meters", "full"));
-  EXPECT_EQ(full.say(CueKind::blocked, everything()),
-            "wait, pallet robot in the way, I will say when to go on");
-  const auto bytes = [](const Phrases& phrases) {
-    std::size_t sum = 0;
-    for (const Content& content : navvi_types::contents())
-      sum += phrases.say(content, everything()).size();
-    return sum;
-  };
   for (const fs::path& language : {kEnglish, kSpanish}) {
-    const Phrases normal(language);
-    EXPECT_LT(bytes(Phrases(language, wording("clock", "meters", "brief"))), bytes(normal));
-    EXPECT_GT(bytes(Phrases(language, wording("clock", "meters", "full"))), bytes(normal));
+    const auto bytes = [&](const char* verbosity) {
+      const Phrases phrases(language, wording("clock", "meters", verbosity));
+      std::size_t sum = 0;
+      for (const Content& content : navvi_types::contents())
+        sum += phrases.say(content, everything()).size();
+      return sum;
+    };
+    EXPECT_LT(bytes("brief"), bytes("normal"));
+    EXPECT_GT(bytes("full"), bytes("normal"));
   }
 }
 
@@ -174,32 +153,8 @@ TEST(Phrases, speak_spanish_with_its_letters_its_plurals_and_its_first_hour) {
   one.hour = 1;
   one.distance = 1.0;
   EXPECT_EQ(phrases.say(CueKind::direction, one), "gire hacia la una, 1 metro");
-  EXPECT_EQ(phrases.say(CueKind::direction, everything()), "gire hacia las 3, 8 metros");
   one.thing = ThingClass::shelf;
   EXPECT_EQ(phrases.say({CueKind::near, About::shelf}, one), "estanter\u00eda a su izquierda");
-}
-
-TEST(Phrases, name_what_the_hands_are_on) {
-  Fillings keys = everything();
-  keys.keys = true;
-  const Phrases english(kEnglish);
-  EXPECT_EQ(english.say(CueKind::robot_stopped), "robot stopped, release the stick");
-  EXPECT_EQ(english.say(CueKind::robot_stopped, keys), "robot stopped, release the keys");
-  EXPECT_EQ(english.say({CueKind::menu, About::setting_open}, keys),
-            "volume, 2 percent, page up for more, page down for less");
-  EXPECT_EQ(Phrases(kSpanish).say(CueKind::release_stick, keys), "suelte las teclas");
-}
-
-TEST(Phrases, call_what_has_no_name_something) {
-  Fillings fillings = everything();
-  fillings.thing = ThingClass::other;
-  const Phrases english(kEnglish);
-  EXPECT_EQ(english.say(CueKind::collision, fillings), "hit something on your left");
-  EXPECT_EQ(english.say(CueKind::obstacle_comes, fillings), "something coming, on your left");
-  EXPECT_EQ(english.say(CueKind::make_room, fillings),
-            "move to 3 o'clock, 8 meters, to let something pass");
-  EXPECT_EQ(Phrases(kSpanish).say(CueKind::collision, fillings),
-            "choque, algo a su izquierda");
 }
 
 TEST(Phrases, of_the_end_of_a_wait_and_of_straight_ahead_begin_with_other_words) {
@@ -240,12 +195,20 @@ TEST(Phrases, refuse_letters_that_no_voice_reads_and_broken_utf8) {
     EXPECT_FALSE(speakable(text)) << text;
 }
 
-TEST(Phrases, give_feet_where_they_are_wanted) {
-  const Phrases phrases(kEnglish, wording("clock", "feet"));
-  const std::vector<std::pair<double, std::string>> table = {{0.0, "1 foot"},  {0.4, "1 foot"},
-                                                             {0.5, "2 feet"},  {5.9, "19 feet"},
-                                                             {8.2, "25 feet"}, {1e9, "9999 feet"}};
-  for (const auto& [metres, text] : table) EXPECT_EQ(phrases.distance(metres), text) << metres;
+TEST(Phrases, round_distances_as_people_say_them) {
+  using Table = std::vector<std::pair<double, const char*>>;
+  const Table metric = {{0.0, "0.5 meters"}, {0.6, "0.5 meters"},  {0.8, "1 meter"},
+                        {1.2, "1 meter"},    {1.3, "1.5 meters"},  {1.74, "1.5 meters"},
+                        {1.76, "2 meters"},  {2.4, "2 meters"},    {2.6, "3 meters"},
+                        {49.6, "50 meters"}, {1e9, "9999 meters"}};
+  const Table feet = {{0.0, "1 foot"},  {0.4, "1 foot"},  {0.5, "2 feet"},
+                      {5.9, "19 feet"}, {8.2, "25 feet"}, {1e9, "9999 feet"}};
+  for (const auto& [units, table] : {std::pair("meters", metric), std::pair("feet", feet)}) {
+    const Phrases phrases(kEnglish, wording("clock", units));
+    for (const auto& [metres, text] : table) EXPECT_EQ(phrases.distance(metres), text) << metres;
+    EXPECT_THROW((void)phrases.distance(std::nan("")), std::logic_error);
+    EXPECT_THROW((void)phrases.distance(-1.0), std::logic_error);
+  }
 }
 
 TEST(Phrases, name_places_with_their_number) {
@@ -288,17 +251,6 @@ TEST(Phrases, let_a_place_be_called_by_letters_digits_and_single_blanks) {
     EXPECT_FALSE(is_place_name(name)) << name;
 }
 
-TEST(Phrases, round_distances_as_people_say_them) {
-  const Phrases phrases(kEnglish);
-  const std::vector<std::pair<double, std::string>> table = {
-      {0.0, "0.5 meters"}, {0.6, "0.5 meters"},  {0.8, "1 meter"},    {1.2, "1 meter"},
-      {1.3, "1.5 meters"}, {1.74, "1.5 meters"}, {1.76, "2 meters"},  {2.4, "2 meters"},
-      {2.6, "3 meters"},   {49.6, "50 meters"},  {1e9, "9999 meters"}};
-  for (const auto& [metres, text] : table) EXPECT_EQ(phrases.distance(metres), text) << metres;
-  EXPECT_THROW((void)phrases.distance(std::nan("")), std::logic_error);
-  EXPECT_THROW((void)phrases.distance(-1.0), std::logic_error);
-}
-
 TEST(Phrases, refuse_to_speak_without_what_the_phrase_needs) {
   const Phrases phrases(kEnglish);
   EXPECT_THROW((void)phrases.say(CueKind::direction), std::logic_error);
@@ -316,36 +268,38 @@ TEST(Phrases, refuse_a_file_that_is_missing_or_no_map) {
   EXPECT_NE(refusal("phrases: {\n"), "");
 }
 
-TEST(Phrases, refuse_a_file_that_lacks_a_key_and_name_it) {
-  const std::string no_phrase = refusal(replaced("  arrived:", "  # arrived:"));
-  EXPECT_TRUE(names(no_phrase, "arrived") && names(no_phrase, "missing")) << no_phrase;
-  const std::string no_word = refusal(replaced("  forklift: forklift\n", ""));
-  EXPECT_TRUE(names(no_word, "words/forklift")) << no_word;
-}
-
 TEST(Phrases, stand_under_a_kind_for_all_that_it_may_be_about_but_what_has_one_of_its_own) {
   const std::string near = "  near: \"{thing} {where}\"\n";
-  const TemporaryFile file(replaced(near, near + "  wall_near: \"mind the wall\"\n"));
-  const Phrases phrases(file.path());
+  const navvi_test::TempFolder folder;
+  const Phrases phrases(
+      folder.write("a.yaml", replaced(near, near + "  wall_near: \"mind the wall\"\n")));
   EXPECT_EQ(phrases.say({CueKind::near, About::wall}, everything()), "mind the wall");
   EXPECT_EQ(phrases.say({CueKind::near, About::shelf}, everything()), "pallet robot on your left");
   EXPECT_TRUE(names(refusal(replaced(near, "  wall_near: \"mind the wall\"\n")), "shelf_near"));
-  // One that needs no direction has no other words.
-  EXPECT_TRUE(names(refusal(replaced("  start_distance:", "  # start_distance:")), "missing"));
 }
 
-TEST(Phrases, refuse_an_unknown_key_or_placeholder_with_its_line) {
-  const std::string key = refusal(replaced("  no_goal:", "  typo: \"x\"\n  no_goal:"));
-  EXPECT_TRUE(names(key, "phrases/typo") && names(key, "line ")) << key;
-  const std::string placeholder = refusal(replaced("{direction}, {distance}", "{name} there"));
-  EXPECT_TRUE(names(placeholder, "{name}") && names(placeholder, "line ")) << placeholder;
-  EXPECT_NE(refusal(replaced("hit {a_thing} {where}", "hit {a_thing {where}")), "");
-  EXPECT_NE(refusal(replaced("hit {a_thing} {where}", "hit {a_thing")), "");
-  EXPECT_NE(refusal(replaced("  no_goal:", "  arrived: \"again\"\n  no_goal:")), "");
-  EXPECT_NE(refusal(english() + "\nmore: {}\n"), "");
-  EXPECT_TRUE(names(refusal(replaced("voice: en\n", "")), "voice"));
-  EXPECT_TRUE(names(refusal(replaced("  clock_7: 7 o'clock\n", "")), "words/clock_7"));
-  EXPECT_TRUE(names(refusal(replaced("  feet: feet\n", "")), "words/feet"));
+TEST(Phrases, refuse_a_file_with_a_missing_or_unknown_key_or_placeholder_and_name_it) {
+  struct Row {
+    const char *from, *to;
+    std::vector<std::string> named;
+  };
+  for (const Row& row : std::vector<Row>{
+           {"  arrived:", "  # arrived:", {"arrived", "missing"}},
+           {"  start_distance:", "  # start_distance:", {"missing"}},  // it needs no direction
+           {"  forklift: forklift\n", "", {"words/forklift"}},
+           {"  clock_7: 7 o'clock\n", "", {"words/clock_7"}},
+           {"  feet: feet\n", "", {"words/feet"}},
+           {"voice: en\n", "", {"voice"}},
+           {"voice: en\n", "voice: en\nmore: {}\n", {"more"}},
+           {"  no_goal:", "  typo: \"x\"\n  no_goal:", {"phrases/typo", "line "}},
+           {"  no_goal:", "  arrived: \"again\"\n  no_goal:", {"arrived"}},
+           {"{direction}, {distance}", "{name} there", {"{name}", "line "}},
+           {"hit {a_thing} {where}", "hit {a_thing {where}", {"collision"}},
+           {"hit {a_thing} {where}", "hit {a_thing", {"collision"}}}) {
+    const std::string sentence = refusal(replaced(row.from, row.to));
+    for (const std::string& part : row.named)
+      EXPECT_TRUE(names(sentence, part)) << row.to << ": " << sentence;
+  }
 }
 
 TEST(Phrases, refuse_text_that_could_harm_the_voice) {

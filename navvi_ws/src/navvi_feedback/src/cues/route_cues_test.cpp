@@ -11,21 +11,17 @@
 namespace navvi_feedback::cues {
 namespace {
 
-TEST(RouteCues, say_the_way_to_a_new_goal_and_then_where_that_is) {
+TEST(RouteCues, say_the_way_to_a_new_goal_and_then_where_that_is_or_how_far) {
   Drive drive;
   drive.now.guidance = following(90.0, 8.0);
+  Drive unknown = drive;
   drive.now.goal_angle = rad(-60.0);
   EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::direction, CueKind::start}));
   EXPECT_EQ(drive.last.fillings.side, Side::left);
   EXPECT_DOUBLE_EQ(*drive.last.fillings.distance, 25.0);
   drive.now.voice_busy = true;
   EXPECT_EQ(drive.pass(2.0), Kinds{});
-}
-
-TEST(RouteCues, introduce_a_goal_whose_bearing_is_unknown_by_its_distance) {
-  Drive drive;
-  drive.now.guidance = following(90.0, 8.0);
-  EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::direction, {CueKind::start, About::distance}}));
+  EXPECT_EQ(unknown.pass(kTick), (Kinds{CueKind::direction, {CueKind::start, About::distance}}));
 }
 
 TEST(RouteCues, introduce_a_goal_that_is_not_seen_as_such_without_the_length_of_the_path) {
@@ -120,24 +116,17 @@ TEST(RouteCues, urge_a_hand_that_rests_for_3_s_at_the_begin_of_a_straight_leg_on
 }
 
 TEST(RouteCues, urge_no_hand_that_has_driven_turns_or_has_something_before_it) {
-  const auto begun = [](Drive& drive) {
-    drive.now.guidance = following(0.0, 8.0);
-    drive.pass(kTick);
-  };
-  Drive driven;
-  begun(driven);
+  Drive driven, turning, before;
+  for (Drive* const drive : {&driven, &turning, &before}) {
+    drive->now.guidance = following(0.0, 8.0);
+    drive->pass(kTick);
+  }
   driven.now.commanded.linear = 0.5;
   driven.pass(0.5);
   driven.now.commanded.linear = 0.0;
-  EXPECT_EQ(driven.pass(5.0), Kinds{});
-  Drive turning;
-  begun(turning);
   turning.now.commanded.angular = 0.5;
-  EXPECT_EQ(turning.pass(5.0), Kinds{});
-  Drive before;
-  begun(before);
   before.now.nearby = {{ThingClass::box, 1, 0.3, {0.7, 0.0}}};
-  EXPECT_EQ(before.pass(5.0), Kinds{});
+  for (Drive* const drive : {&driven, &turning, &before}) EXPECT_EQ(drive->pass(5.0), Kinds{});
 }
 
 TEST(RouteCues, say_nothing_of_an_angle_that_is_no_number) {
@@ -159,15 +148,6 @@ TEST(RouteCues, do_not_say_by_themselves_what_was_just_answered) {
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::straight});
 }
 
-TEST(RouteCues, are_silent_while_the_person_is_to_stop_and_then_say_the_direction) {
-  Drive drive;
-  drive.settle(0.0, 30.0);
-  for (double end = drive.time + 10.0; drive.time < end; drive.time += kTick)
-    EXPECT_TRUE(drive.cues.update(drive.now, true, drive.time).empty());
-  EXPECT_EQ(drive.go_on().at(0).kind, CueKind::straight);
-  EXPECT_EQ(drive.pass(5.0), Kinds{}) << "it was just said";
-}
-
 TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
   for (const bool sound : {true, false})
     for (const auto& [angle, hour] : {std::pair(120.0, 4), std::pair(0.0, 12)}) {
@@ -175,8 +155,8 @@ TEST(RouteCues, say_a_route_that_changed_while_the_person_waited) {
       drive.now.lead = sound ? Lead::ticks : Lead::words;
       drive.settle(0.0, 30.0);
       drive.now.guidance->reroutes = 1;
-      drive.now.guidance->waypoint = {0.0, -12.0};
-      drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(angle);
+      drive.lead_to(0.0, -12.0);
+      drive.face(angle);
       const Utterances on = drive.go_on();
       ASSERT_EQ(on.size(), 1U);
       EXPECT_EQ(on[0].kind, CueKind::rerouted);
@@ -190,7 +170,7 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   drive.settle(0.0, 30.0);
   drive.now.guidance = following(0.0, 3.0);
   drive.now.guidance->reroutes = 1;
-  drive.now.guidance->waypoint = {0.0, -12.0};
+  drive.lead_to(0.0, -12.0);
   EXPECT_EQ(drive.go_on().at(0).kind, CueKind::rerouted);
   const RouteCues told = drive.cues;
   drive.cues.pause(false);
@@ -201,107 +181,16 @@ TEST(RouteCues, call_no_route_new_whose_way_was_told) {
   EXPECT_EQ(drive.pass(2.0), Kinds{CueKind::rerouted});
 }
 
-TEST(RouteCues, say_the_direction_again_after_a_stop) {
+TEST(RouteCues, say_the_direction_again_after_a_stop_and_when_the_path_is_back) {
   Drive drive;
   drive.settle(0.0, 30.0);
   drive.cues.remind(drive.time + 1.0);
   EXPECT_EQ(drive.pass(0.9), Kinds{});
   EXPECT_EQ(drive.pass(0.2), Kinds{CueKind::straight});
-}
-
-TEST(RouteCues, say_the_direction_when_the_path_is_back_without_a_new_introduction) {
-  Drive drive;
-  drive.settle(0.0, 30.0);
   drive.cues.pause(false);
-  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight});
+  EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight}) << "without a new introduction";
   drive.cues.pause(true);
   EXPECT_EQ(drive.pass(kTick), (Kinds{CueKind::straight, {CueKind::start, About::distance}}));
-}
-
-/// A person with the stick: reacts to words after a second, turns by an hour's angle with an error,
-/// and drives on when told that the way is straight ahead.
-class Person {
- public:
-  explicit Person(double error) : error_(error) {}
-
-  void hear(const Utterance& utterance, double time) {
-    heard_ = {time + 1.0, utterance};
-    busy_until_ = time + 1.6;
-    ++words;
-  }
-
-  Velocity command(double time) {
-    if (heard_ && time >= heard_->first) {
-      if (heard_->second.kind == CueKind::straight) {
-        turn_left_ = 0.0;
-        drives_ = true;
-      } else if (heard_->second.kind != CueKind::turn_ahead) {
-        const double turn = *heard_->second.fillings.hour * M_PI / 6.0;
-        turn_left_ = error_ * std::remainder(turn, 2.0 * M_PI);
-        drives_ = true;
-      }
-      heard_.reset();
-    }
-    if (std::abs(turn_left_) < 0.8 * kTick) turn_left_ = 0.0;
-    const double rate = turn_left_ > 0.0 ? -0.8 : turn_left_ < 0.0 ? 0.8 : 0.0;
-    turn_left_ += rate * kTick;
-    return {rate == 0.0 && drives_ ? 0.8 : 0.0, rate};
-  }
-
-  [[nodiscard]] bool listens(double time) const { return time < busy_until_; }
-
-  int words = 0;
-
- private:
-  double error_;
-  double turn_left_ = 0.0;  // rad, clockwise
-  bool drives_ = false;
-  double busy_until_ = 0.0;
-  std::optional<std::pair<double, Utterance>> heard_;
-};
-
-/// Leads a person along a path of four corners, and checks that they get there without much talk.
-void lead(const RouteConfig& config, double error) {
-  const std::vector<Eigen::Vector2d> path = {{12.0, 0.0}, {12.0, 9.0}, {0.0, 9.0}, {-3.0, 14.0}};
-  RouteCues cues(config);
-  Person person(error);
-  Eigen::Vector2d position(0.0, 0.0);
-  double heading = 2.5;
-  std::size_t next = 0;
-  Observation now;
-  now.measured.emplace();
-  double time = 0.0;
-  for (; time < 120.0; time += kTick) {
-    if ((path[next] - position).norm() < 1.0 && ++next == path.size()) break;
-    const Eigen::Vector2d to = path[next] - position;
-    now.guidance = following(0.0, to.norm());
-    now.guidance->waypoint = path[next];
-    now.guidance->goal = path.back();
-    now.guidance->waypoint_is_goal = next + 1 == path.size();
-    now.guidance->waypoint_angle = now.guidance->steer_angle =
-        -std::remainder(std::atan2(to.y(), to.x()) - heading, 2.0 * M_PI);
-    now.voice_busy = person.listens(time);
-    for (const Utterance& utterance : cues.update(now, false, time))
-      if (utterance.fillings.hour) person.hear(utterance, time);
-    now.commanded = person.command(time);
-    now.measured = now.commanded;
-    heading += now.commanded.angular * kTick;
-    position +=
-        now.commanded.linear * kTick * Eigen::Vector2d(std::cos(heading), std::sin(heading));
-  }
-  EXPECT_EQ(next, path.size()) << "got as far as corner " << next;
-  EXPECT_LT(person.words, 45);
-}
-
-TEST(RouteCues, bring_a_person_who_only_hears_to_the_goal) {
-  for (const char* rounding : {"nearest", "floor"}) {
-    for (const double error : {0.8, 1.0, 1.2}) {
-      SCOPED_TRACE(std::string(rounding) + ", turns by " + std::to_string(error) + " of the hour");
-      RouteConfig config;
-      config.rounding = rounding;
-      lead(config, error);
-    }
-  }
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ bool leg_due(const Look& look, const Leg& leg) {
 Told tell_direction(const Look& look, Leg& leg) {
   // The sound leads anyway, and a word to stop may follow.
   const double free = std::min(look.config.kComing, look.guidance().waypoint_distance);
-  if (look.hour() == 12 && mover_ahead(look.now.nearby, free)) return std::nullopt;
+  if (look.hour() == 12 && anything_ahead(look.now.nearby, free, true)) return std::nullopt;
   const bool due = direction_due(look, leg).value_or(leg_due(look, leg));
   return due ? Told(tell_way(look, leg)) : std::nullopt;
 }

@@ -35,7 +35,7 @@ TEST(SoundsLead, say_a_turn_once_and_no_bend_where_a_sound_leads_round) {
       drive.now.guidance->waypoint_distance = 0.5;
       drive.pass(1.0);
       drive.now.guidance = following(turn, 12.0);
-      drive.now.guidance->waypoint = {10.0, 12.0};
+      drive.lead_to(10.0, 12.0);
       EXPECT_EQ(drive.pass(3.0), worth_words && !announced ? Kinds{CueKind::turn_now} : Kinds{});
       drive.now.guidance->steer_angle = 0.0;
       EXPECT_EQ(drive.pass(3.0), worth_words && announced ? Kinds{CueKind::straight} : Kinds{});

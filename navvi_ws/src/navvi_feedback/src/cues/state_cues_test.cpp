@@ -7,12 +7,20 @@
 namespace navvi_feedback::cues {
 namespace {
 
-class StateCuesTest : public CuePolicyTest {};
+class StateCuesTest : public CuePolicyTest {
+ protected:
+  void before_a_trial(TrialState::State state) {
+    now_.trial = state;
+    now_.guidance->state = Guidance::State::no_goal;
+  }
+};
 
-TEST_F(StateCuesTest, announces_the_arrival_once) {
+TEST_F(StateCuesTest, announces_the_arrival_once_and_asks_nobody_then_to_release_the_stick) {
   under_way();
   now_.guidance->state = Guidance::State::arrived;
-  EXPECT_EQ(pass(60.0), Texts{"you have reached the goal"});
+  EXPECT_EQ(pass(0.1), Texts{"you have reached the goal"});
+  now_.stick_held_unarmed = true;  // the trial is over
+  EXPECT_EQ(pass(60.0), Texts{});
   now_.links.guidance = Link::lost;
   pass(2.0);
   now_.links.guidance = Link::alive;
@@ -20,8 +28,7 @@ TEST_F(StateCuesTest, announces_the_arrival_once) {
 }
 
 TEST_F(StateCuesTest, says_go_at_once_and_not_after_the_words_that_asked_for_the_press) {
-  now_.trial = TrialState::State::ready;
-  now_.guidance->state = Guidance::State::no_goal;
+  before_a_trial(TrialState::State::ready);
   EXPECT_EQ(pass(3.0), Texts{"press start to begin"});
   now_.trial = TrialState::State::running;
   EXPECT_EQ(pass(0.02), Texts{"go"});
@@ -29,8 +36,7 @@ TEST_F(StateCuesTest, says_go_at_once_and_not_after_the_words_that_asked_for_the
 }
 
 TEST_F(StateCuesTest, says_what_is_to_be_done_at_a_place_of_a_job_and_what_to_press_then) {
-  now_.trial = TrialState::State::ready;
-  now_.guidance->state = Guidance::State::no_goal;
+  before_a_trial(TrialState::State::ready);
   now_.task = TrialState::Task::pick;
   now_.reached = "packing table";
   EXPECT_EQ(pass(3.0), Texts{"packing table, pick, then press start"});
@@ -39,8 +45,7 @@ TEST_F(StateCuesTest, says_what_is_to_be_done_at_a_place_of_a_job_and_what_to_pr
 }
 
 TEST_F(StateCuesTest, does_not_ask_into_an_open_menu_for_what_is_chosen_there) {
-  now_.trial = TrialState::State::choose_goal;
-  now_.guidance->state = Guidance::State::no_goal;
+  before_a_trial(TrialState::State::choose_goal);
   EXPECT_EQ(pass(3.0), Texts{"choose a goal"});
   now_.menu_open = true;
   EXPECT_EQ(pass(60.0), Texts{});
@@ -69,27 +74,22 @@ TEST_F(StateCuesTest, says_why_a_goal_was_refused_once_a_goal) {
   EXPECT_EQ(pass(60.0), Texts{"goal refused, it cannot be reached"});
 }
 
-TEST_F(StateCuesTest, passes_over_a_state_that_lasts_no_time) {
+TEST_F(StateCuesTest, says_nothing_of_a_state_or_a_wait_too_short_to_be_obeyed) {
   under_way();
   now_.guidance->state = Guidance::State::off_mesh;
   EXPECT_EQ(pass(0.3), Texts{});
-  now_.guidance->state = Guidance::State::following;
+  follow();
   EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
-}
-
-TEST_F(StateCuesTest, says_nothing_of_a_wait_too_short_to_be_obeyed) {
-  under_way();
   now_.guidance->blocked_distance = 5.0;
-  now_.guidance->state = Guidance::State::blocked;
+  block();
   EXPECT_EQ(pass(0.3), Texts{});
-  now_.guidance->state = Guidance::State::following;
+  follow();
   EXPECT_EQ(pass(3.0), Texts{});
 }
 
 TEST_F(StateCuesTest, says_at_once_to_wait_for_what_would_be_reached_within_seconds) {
   under_way();
-  now_.guidance->state = Guidance::State::blocked;
-  now_.guidance->blocked_by = ThingClass::worker;
+  block();
   now_.measured = navvi_types::Velocity{0.9, 0.0};
   now_.guidance->blocked_distance = 3.0;
   EXPECT_EQ(pass(0.3), Texts{});
@@ -97,34 +97,10 @@ TEST_F(StateCuesTest, says_at_once_to_wait_for_what_would_be_reached_within_seco
   EXPECT_EQ(pass(0.02), Texts{"wait, worker in the way"});
 }
 
-TEST_F(StateCuesTest, says_that_the_map_is_too_old) {
-  under_way();
-  now_.guidance->state = Guidance::State::map_stale;
-  EXPECT_EQ(pass(5.0), Texts{"the map is out of date"});
-}
-
 TEST_F(StateCuesTest, reminds_of_a_problem_that_lasts) {
   under_way();
   now_.guidance->state = Guidance::State::no_route;
   EXPECT_EQ(pass(31.0), Texts(3, "there is no route to the goal"));
-}
-
-TEST_F(StateCuesTest, has_a_kind_for_every_state_and_refusal_of_the_guidance) {
-  for (std::size_t state = 0; state < names(Guidance::State{}).size(); ++state) {
-    for (std::size_t refusal = 0; refusal < names(Guidance::Refusal{}).size(); ++refusal) {
-      now_.guidance->state = static_cast<Guidance::State>(state);
-      now_.guidance->refusal = static_cast<Guidance::Refusal>(refusal);
-      EXPECT_NO_THROW(pass(4.0)) << to_string(now_.guidance->state);
-    }
-  }
-}
-
-TEST_F(StateCuesTest, asks_nobody_to_release_the_stick_who_has_arrived) {
-  under_way();
-  now_.guidance->state = Guidance::State::arrived;
-  EXPECT_EQ(pass(0.1), Texts{"you have reached the goal"});
-  now_.stick_held_unarmed = true;  // the trial is over
-  EXPECT_EQ(pass(10.0), Texts{});
 }
 
 }  // namespace

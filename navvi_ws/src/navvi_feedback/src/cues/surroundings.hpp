@@ -33,18 +33,13 @@ constexpr double kMoving = 0.05;
   return thing == ThingClass::wall ? About::wall : About::shelf;
 }
 
-/// \param reach  m, gap
+/// \param reach  m, gap \param moves  only what moves about counts
 /// \return whether anything nearer than that is in the lane ahead
-[[nodiscard]] inline bool anything_ahead(const std::vector<NearThing>& nearby, double reach) {
+[[nodiscard]] inline bool anything_ahead(const std::vector<NearThing>& nearby, double reach,
+                                         bool moves = false) {
   return std::any_of(nearby.begin(), nearby.end(), [&](const NearThing& thing) {
-    return thing.gap < reach && side_of_lane(thing.nearest) == Side::ahead;
-  });
-}
-
-/// Likewise, of what moves about.
-[[nodiscard]] inline bool mover_ahead(const std::vector<NearThing>& nearby, double reach) {
-  return std::any_of(nearby.begin(), nearby.end(), [&](const NearThing& thing) {
-    return thing.moving && thing.gap < reach && side_of_lane(thing.nearest) == Side::ahead;
+    return (thing.moving || !moves) && thing.gap < reach &&
+           side_of_lane(thing.nearest) == Side::ahead;
   });
 }
 

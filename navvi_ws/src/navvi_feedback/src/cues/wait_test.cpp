@@ -1,24 +1,23 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "cue_policy_fixture.hpp"
 
 namespace navvi_feedback::cues {
 namespace {
+
+const Texts kWait = {"wait, worker in the way"};
+const Texts kGoOn = {"go on, drive straight, 20 meters"};
 
 /// Told to wait; then something happens, and then the way is free again.
 class WaitTest : public CuePolicyTest {
  protected:
   WaitTest() {
     under_way();
-    now_.guidance->state = Guidance::State::blocked;
-    now_.guidance->blocked_by = ThingClass::worker;
+    block();
     pass(1.0);
-    now_.commanded = {};
-    now_.measured = Velocity{};
-  }
-  void follow() { now_.guidance->state = Guidance::State::following; }
-  void note(std::uint32_t id, CueStage stage) {
-    policy_.note({{id, stage, last_.kind, last_.text, last_.priority}});
+    stand();
   }
 };
 
@@ -26,34 +25,32 @@ TEST_F(WaitTest, ends_by_go_on_and_the_new_route_where_that_is_another_one) {
   follow();
   now_.guidance->reroutes = 1;
   now_.guidance->reroute_reason = Guidance::Replan::waypoint_blocked;
-  now_.guidance->waypoint = {0.0, -5.0};
-  now_.guidance->waypoint_angle = now_.guidance->steer_angle = 1.6;
-  now_.guidance->waypoint_distance = 5.0;
+  lead_to(0.0, -5.0, 1.6, 5.0);
   EXPECT_EQ(pass(5.0), Texts{"go on, way blocked, new route, 3 o'clock, 5 meters"});
 }
 
-TEST_F(WaitTest, ends_by_go_on_whichever_link_was_lost_meanwhile) {
-  for (Link Links::*link : {&Links::guidance, &Links::pad, &Links::simulator, &Links::proximity}) {
-    now_.guidance->state = Guidance::State::blocked;
+TEST_F(WaitTest, ends_by_go_on_whatever_was_lost_or_wrong_meanwhile) {
+  using State = Guidance::State;
+  std::vector<std::pair<std::string, std::function<void()>>> rows;
+  for (const State state : {State::no_route, State::off_mesh, State::pose_stale, State::map_stale})
+    rows.emplace_back(to_string(state), [this, state] { now_.guidance->state = state; });
+  const std::vector<std::pair<const char*, Link Links::*>> links = {
+      {"guidance", &Links::guidance},
+      {"pad", &Links::pad},
+      {"simulator", &Links::simulator},
+      {"proximity", &Links::proximity}};
+  for (const auto& [name, link] : links)
+    rows.emplace_back(name, [this, lost = link] { now_.links.*lost = Link::lost; });
+  const Links alive = now_.links;
+  for (const auto& [name, happens] : rows) {
+    SCOPED_TRACE(name);
+    block();
     pass(5.0);
-    now_.links.*link = Link::lost;
+    happens();
     pass(5.0);
-    now_.links.*link = Link::alive;
+    now_.links = alive;
     follow();
-    EXPECT_EQ(pass(3.0).back(), "go on, drive straight, 20 meters");
-    pass(11.0);
-  }
-}
-
-TEST_F(WaitTest, ends_by_go_on_after_any_state_in_which_nothing_leads) {
-  for (const auto state : {Guidance::State::no_route, Guidance::State::off_mesh,
-                           Guidance::State::pose_stale, Guidance::State::map_stale}) {
-    now_.guidance->state = Guidance::State::blocked;
-    pass(5.0);
-    now_.guidance->state = state;
-    pass(5.0);
-    follow();
-    EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"}) << to_string(state);
+    EXPECT_EQ(pass(3.0).back(), kGoOn.front());
     pass(11.0);
   }
 }
@@ -62,9 +59,9 @@ TEST_F(WaitTest, ends_by_go_on_with_the_new_goal_where_that_is_another_one) {
   now_.guidance->state = Guidance::State::arrived;
   pass(2.0);
   follow();
-  now_.guidance->goal = now_.guidance->waypoint = {0.0, 7.0};
+  now_.guidance->goal = {0.0, 7.0};
+  lead_to(0.0, 7.0, 0.0, 3.0);
   now_.goal_angle = -1.6;
-  now_.guidance->waypoint_distance = 3.0;
   EXPECT_EQ(pass(3.0),
             Texts{"go on, drive straight, 3 meters, the goal is 20 meters on, at 9 o'clock"});
 }
@@ -75,7 +72,7 @@ TEST_F(WaitTest, ends_by_go_on_and_the_direction_where_ticks_lead_and_where_word
   wording.way = false;
   policy_.use(wording);
   follow();
-  EXPECT_EQ(pass(10.0), Texts{"go on, drive straight, 20 meters"});
+  EXPECT_EQ(pass(10.0), kGoOn);
 }
 
 TEST_F(WaitTest, is_not_shown_for_long_when_its_goal_is_gone) {
@@ -90,83 +87,67 @@ TEST_F(WaitTest, is_not_shown_for_long_when_its_goal_is_gone) {
 }
 
 TEST_F(WaitTest, is_not_over_before_go_on_was_heard_to_its_end) {
-  for (const CueStage lost : {CueStage::cut, CueStage::dropped}) {
+  const std::vector<CueStage> cut = {CueStage::queued, CueStage::started, CueStage::cut};
+  for (const std::vector<CueStage>& lost : {cut, kDropped}) {
     follow();
-    EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
-    note(7, CueStage::queued);
-    if (lost == CueStage::cut) note(7, CueStage::started);
+    EXPECT_EQ(pass(3.0), kGoOn);
     note(7, lost);
-    EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
-    note(8, CueStage::queued);
-    note(8, CueStage::started);
-    note(8, CueStage::ended);
+    EXPECT_EQ(pass(3.0), kGoOn);
+    note(8, kHeard);
     EXPECT_EQ(pass(0.5), Texts{});
-    now_.guidance->state = Guidance::State::blocked;
+    block();
     pass(5.0);
   }
 }
 
 TEST_F(WaitTest, owes_go_on_until_the_person_drives) {
   follow();
-  const std::string go_on = "go on, drive straight, 20 meters";
-  std::uint32_t id = 0;
-  int told = 0;
+  std::uint32_t told = 0;
   for (double seconds = 0.0; seconds < 40.0; seconds += 0.1) {
     for (const std::string& text : pass(0.1)) {
-      EXPECT_EQ(text, go_on);
-      ++told;
-      ++id;
-      for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
-        note(id, stage);
+      EXPECT_EQ(text, kGoOn.front());
+      note(++told, kHeard);
     }
   }
-  EXPECT_GE(told, 4);
-  EXPECT_LE(told, 8);
+  EXPECT_GE(told, 4U);
+  EXPECT_LE(told, 8U);
   now_.commanded.linear = -1.0;
   now_.measured->linear = -0.3;
   pass(0.1);
-  asked_.question = Question::way;
-  EXPECT_EQ(pass(0.1), Texts{go_on}) << "back is not on";
-  ++id;
-  for (const CueStage stage : {CueStage::queued, CueStage::started, CueStage::ended})
-    note(id, stage);
+  EXPECT_EQ(ask(Question::way), kGoOn) << "back is not on";
+  note(++told, kHeard);
   now_.commanded.linear = 1.0;
   now_.measured->linear = 0.5;
   EXPECT_EQ(pass(12.0), Texts{});
-  asked_.question = Question::way;
-  EXPECT_EQ(pass(0.1), Texts{"drive straight, 20 meters"});
+  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(WaitTest, is_not_over_because_a_later_word_to_stop_was_not_heard) {
-  note(1, CueStage::started);
+  note(1, {CueStage::started});
   pass(15.0);  // it is said again
-  note(2, CueStage::queued);
-  note(2, CueStage::dropped);
+  note(2, kDropped);
   follow();
-  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
+  EXPECT_EQ(pass(3.0), kGoOn);
 }
 
 TEST_F(WaitTest, is_said_at_once_though_an_older_word_to_stop_holds) {
-  note(1, CueStage::queued);
-  note(1, CueStage::started);
+  note(1, {CueStage::queued, CueStage::started});
   now_.guidance->state = Guidance::State::no_route;
   pass(12.0);
-  now_.guidance->state = Guidance::State::blocked;
-  EXPECT_EQ(pass(0.6), Texts{"wait, worker in the way"});
+  block();
+  EXPECT_EQ(pass(0.6), kWait);
 }
 
 TEST_F(WaitTest, is_said_again_while_it_lasts_if_other_words_left_it_no_room) {
   for (int i = 1; i <= 3; ++i) {
-    note(i, CueStage::queued);
-    note(i, CueStage::dropped);
+    note(i, kDropped);
     EXPECT_EQ(pass(0.25), Texts{}) << "none that finds no room either";
-    EXPECT_EQ(pass(0.25), Texts{"wait, worker in the way"});
+    EXPECT_EQ(pass(0.25), kWait);
   }
-  note(4, CueStage::queued);
-  note(4, CueStage::started);
+  note(4, {CueStage::queued, CueStage::started});
   EXPECT_EQ(pass(2.0), Texts{});
   follow();
-  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
+  EXPECT_EQ(pass(3.0), kGoOn);
 }
 
 TEST_F(WaitTest, is_said_again_if_it_found_no_room_in_the_moment_it_was_due) {
@@ -177,15 +158,13 @@ TEST_F(WaitTest, is_said_again_if_it_found_no_room_in_the_moment_it_was_due) {
   later.id = 2;
   policy_.note({due, later, gone});
   EXPECT_EQ(pass(1.0), Texts{}) << "a later one takes its place";
-  later.stage = CueStage::dropped;
-  policy_.note({later});
+  note(2, {CueStage::dropped});
   EXPECT_EQ(pass(0.25), Texts{});
-  EXPECT_EQ(pass(0.25), Texts{"wait, worker in the way"});
+  EXPECT_EQ(pass(0.25), kWait);
 }
 
-TEST_F(WaitTest, is_not_said_again_once_the_way_is_free) {
-  note(1, CueStage::queued);
-  note(1, CueStage::dropped);
+TEST_F(WaitTest, is_neither_said_again_nor_taken_back_where_it_was_not_heard_and_the_way_is_free) {
+  note(1, kDropped);
   follow();
   EXPECT_EQ(pass(3.0), Texts{});
 }
@@ -193,54 +172,27 @@ TEST_F(WaitTest, is_not_said_again_once_the_way_is_free) {
 TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_then) {
   follow();
   Texts told;
-  while (told.empty()) {
-    asked_.question = Question::way;
-    const Texts more = pass(0.02);
-    if (more != Texts{"wait, worker in the way"}) told = more;
-  }
-  EXPECT_EQ(told, Texts{"go on, drive straight, 20 meters"});
+  while (told.empty() || told == kWait) told = ask(Question::way, 0.02);
+  EXPECT_EQ(told, kGoOn);
 }
 
-TEST_F(WaitTest, is_not_told_again_to_who_asks_when_its_reason_is_gone) {
+TEST_F(WaitTest, is_told_to_who_asks_only_when_its_reason_comes_back) {
   follow();
   EXPECT_EQ(pass(0.5), Texts{});
-  asked_.question = Question::way;
-  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"}) << "asked and answered once";
-}
-
-TEST_F(WaitTest, is_told_to_who_asks_when_its_reason_comes_back) {
+  EXPECT_EQ(ask(Question::way, 3.0), kGoOn) << "asked and answered once";
+  block();
+  pass(5.0);
   follow();
   pass(0.5);
-  asked_.question = Question::way;
-  pass(0.1);
-  now_.guidance->state = Guidance::State::blocked;
-  EXPECT_EQ(pass(0.1), Texts{"wait, worker in the way"});
+  ask(Question::way);
+  block();
+  EXPECT_EQ(pass(0.1), kWait);
 }
 
 TEST_F(WaitTest, ends_by_an_answer_that_comes_before_go_on_was_heard) {
   follow();
-  EXPECT_EQ(pass(3.0), Texts{"go on, drive straight, 20 meters"});
-  asked_.question = Question::way;
-  EXPECT_EQ(pass(0.1), Texts{"go on, drive straight, 20 meters"});
-}
-
-TEST_F(WaitTest, is_followed_by_a_stop_1_5_s_before_the_shelf_at_the_speed_driven) {
-  follow();
-  double gap = 0.6;
-  const auto see = [&] { now_.nearby = {{ThingClass::shelf, 3, gap, {gap + 0.35, 0.0}, false}}; };
-  see();
-  pass(4.0);
-  Texts told;
-  for (double speed = 0.0; gap > 0.0 && told.empty(); gap -= 0.02 * speed) {
-    speed = std::min(0.9, speed + 0.02 * 1.2);
-    now_.commanded.linear = now_.measured->linear = speed;
-    see();
-    told = pass(0.02);
-    if (!told.empty()) {
-      EXPECT_GE(gap / speed, 1.5);
-    }
-  }
-  EXPECT_EQ(told, Texts{"stop, shelf ahead"});
+  EXPECT_EQ(pass(3.0), kGoOn);
+  EXPECT_EQ(ask(Question::way), kGoOn);
 }
 
 }  // namespace

@@ -7,41 +7,33 @@
 namespace navvi_feedback::cues {
 namespace {
 
-TEST(WordsLead, repeat_the_direction_while_the_robot_faces_elsewhere) {
+TEST(WordsLead, repeat_the_direction_half_as_often_to_a_hand_that_rests_and_straight_seldom) {
   Drive drive;
   drive.settle(90.0, 8.0);
+  Drive rests = drive, straight;
   EXPECT_EQ(drive.pass(18.0), (Kinds{CueKind::direction, CueKind::direction, CueKind::direction}));
+  rests.now.commanded = {};
+  rests.pass(12.0);
+  EXPECT_EQ(rests.pass(24.0).size(), 2U);
+  straight.settle(0.0, 30.0);
+  EXPECT_EQ(straight.pass(40.0), (Kinds{CueKind::straight, CueKind::straight}));
 }
 
 TEST(WordsLead, say_the_direction_again_to_who_turns_away_from_it) {
   Drive drive;
   drive.settle(25.0, 12.0);
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(38.0);
+  drive.face(38.0);
   EXPECT_EQ(drive.pass(1.0), Kinds{});
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(44.0);
+  drive.face(44.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::direction}) << "although it is the same hour";
-}
-
-TEST(WordsLead, repeat_half_as_often_while_the_stick_rests) {
-  Drive drive;
-  drive.settle(90.0, 8.0);
-  drive.now.commanded = {};
-  drive.pass(12.0);
-  EXPECT_EQ(drive.pass(24.0).size(), 2U);
-}
-
-TEST(WordsLead, repeat_straight_ahead_seldom) {
-  Drive drive;
-  drive.settle(0.0, 30.0);
-  EXPECT_EQ(drive.pass(40.0), (Kinds{CueKind::straight, CueKind::straight}));
 }
 
 TEST(WordsLead, correct_only_beyond_the_hysteresis) {
   Drive drive;
   drive.settle(0.0, 30.0);
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(18.0);
+  drive.face(18.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{});
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(21.0);
+  drive.face(21.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::direction});
   EXPECT_EQ(drive.last.fillings.hour, 1);
 }
@@ -55,7 +47,7 @@ TEST(WordsLead, leave_out_the_hours_that_a_turning_robot_passes_and_say_when_to_
   double angle_when_told = 0.0;
   while (degrees > 0.0) {
     degrees -= kTick / M_PI * 180.0;
-    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
+    drive.face(degrees);
     for (const Content& kind : drive.pass(kTick)) {
       said.push_back(kind);
       angle_when_told = degrees;
@@ -71,9 +63,9 @@ TEST(WordsLead, tell_a_robot_that_turned_too_far_once_it_has_settled) {
   Drive drive;
   drive.settle(90.0, 8.0);
   drive.now.measured = Velocity{0.0, -1.0};
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(10.0);
+  drive.face(10.0);
   EXPECT_EQ(drive.pass(kTick), Kinds{CueKind::straight});
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(-30.0);
+  drive.face(-30.0);
   EXPECT_EQ(drive.pass(2.0), Kinds{});
   drive.now.measured = Velocity{};
   EXPECT_EQ(drive.pass(1.0), Kinds{CueKind::direction});
@@ -86,14 +78,10 @@ TEST(WordsLead, say_straight_ahead_in_a_turn_not_more_than_an_hour_too_early) {
   drive.now.commanded = {0.0, -1.2};
   drive.now.measured->linear = 0.0;
   drive.now.measured->angular = -1.2;
-  const auto face = [&drive](double degrees) {
-    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(degrees);
-    return drive.pass(kTick);
-  };
-  EXPECT_EQ(face(60.0), Kinds{});
-  EXPECT_EQ(face(45.0), Kinds{});  // half a second later it would face it
-  EXPECT_EQ(face(29.0), Kinds{CueKind::straight});
-  EXPECT_EQ(face(10.0), Kinds{});
+  for (const double degrees : {60.0, 45.0, 29.0, 10.0}) {  // 45: half a second later it faces it
+    drive.face(degrees);
+    EXPECT_EQ(drive.pass(kTick), degrees == 29.0 ? Kinds{CueKind::straight} : Kinds{}) << degrees;
+  }
 }
 
 TEST(WordsLead, let_a_turn_by_one_hour_end_by_itself) {
@@ -103,7 +91,7 @@ TEST(WordsLead, let_a_turn_by_one_hour_end_by_itself) {
     drive.now.measured->linear = 0.0;
     drive.now.measured->angular = -side * 1.2;
     for (const double degrees : {30.0, 25.0, 15.0, 5.0, -5.0, -10.0}) {
-      drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(side * degrees);
+      drive.face(side * degrees);
       EXPECT_EQ(drive.pass(kTick), Kinds{}) << degrees;
     }
     drive.now.measured->angular = 0.0;
@@ -115,7 +103,7 @@ TEST(WordsLead, do_not_correct_a_robot_that_is_about_to_pass_the_corner_near_eno
   Drive drive;
   drive.settle(0.0, 8.0);
   drive.now.guidance->waypoint_distance = 1.4;
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(28.0);
+  drive.face(28.0);
   EXPECT_EQ(drive.pass(1.0), Kinds{});
 }
 
@@ -126,14 +114,13 @@ TEST(WordsLead, do_not_waver_between_the_hours_ahead_just_before_the_way_point) 
   drive.now.guidance->waypoint_distance = 0.95;
   Kinds said;
   for (int i = 0; i < 10; ++i) {
-    drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle =
-        rad(i % 2 == 0 ? -40.0 : 0.0);
+    drive.face(i % 2 == 0 ? -40.0 : 0.0);
     for (const Content& kind : drive.pass(2.0)) said.push_back(kind);
   }
   EXPECT_EQ(said, Kinds{});
   EXPECT_TRUE(drive.cues.ask(*drive.now.guidance, drive.time)) << "who asks is told";
   drive.pass(2.0);
-  drive.now.guidance->waypoint_angle = drive.now.guidance->steer_angle = rad(100.0);
+  drive.face(100.0);
   EXPECT_EQ(drive.pass(1.0), Kinds{CueKind::direction}) << "who missed it is told";
 }
 

@@ -35,6 +35,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
+constexpr auto kPriming = 450ms;  // the first, soft pulse
+
 bool eventually(const std::function<bool()>& condition,
                 std::chrono::milliseconds deadline = 3000ms) {
   const auto end = Clock::now() + deadline;
@@ -66,6 +68,14 @@ class GamepadWith : public testing::Test {
   }
 };
 
+class ConnectedPad : public GamepadWith {
+ protected:
+  void SetUp() override { ASSERT_TRUE(connects(gamepad)); }
+
+  Gamepad gamepad;
+  VirtualPad pad;
+};
+
 TEST_F(GamepadWith, no_pad_is_not_live) {
   Gamepad gamepad;
   EXPECT_FALSE(gamepad.status().connected);
@@ -73,10 +83,7 @@ TEST_F(GamepadWith, no_pad_is_not_live) {
   gamepad.rumble({1.0, 1.0});
 }
 
-TEST_F(GamepadWith, a_pad_gives_its_axes_left_and_forward_positive) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
+TEST_F(ConnectedPad, a_pad_gives_its_axes_left_and_forward_positive) {
   EXPECT_TRUE(gamepad.status().has_rumble);
   EXPECT_FALSE(gamepad.status().name.empty());
   pad.stick(-1.0, -0.5);  // SDL: left and up
@@ -90,10 +97,7 @@ TEST_F(GamepadWith, a_pad_gives_its_axes_left_and_forward_positive) {
   }
 }
 
-TEST_F(GamepadWith, the_first_two_buttons_ask_for_the_direction_and_the_goal) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
+TEST_F(ConnectedPad, the_first_two_buttons_ask_for_the_direction_and_the_goal) {
   pad.press(SDL_CONTROLLER_BUTTON_A, true);
   EXPECT_TRUE(eventually([&] { return gamepad.input().button(0) && !gamepad.input().button(1); }));
   pad.press(SDL_CONTROLLER_BUTTON_A, false);
@@ -101,11 +105,8 @@ TEST_F(GamepadWith, the_first_two_buttons_ask_for_the_direction_and_the_goal) {
   EXPECT_TRUE(eventually([&] { return !gamepad.input().button(0) && gamepad.input().button(1); }));
 }
 
-TEST_F(GamepadWith, rumble_reaches_the_right_motors_and_expires_without_a_new_wish) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
-  std::this_thread::sleep_for(450ms);  // the priming pulse
+TEST_F(ConnectedPad, rumble_reaches_the_right_motors_and_expires_without_a_new_wish) {
+  std::this_thread::sleep_for(kPriming);
   ASSERT_TRUE(reaches(gamepad, {0.75, 0.25}, [&] {
     return std::abs(pad.left() / 65535.0 - 0.75) < 0.01 &&
            std::abs(pad.right() / 65535.0 - 0.25) < 0.01;
@@ -113,11 +114,8 @@ TEST_F(GamepadWith, rumble_reaches_the_right_motors_and_expires_without_a_new_wi
   EXPECT_TRUE(eventually([&] { return pad.left() == 0 && pad.right() == 0; }, 600ms));
 }
 
-TEST_F(GamepadWith, sides_that_matter_are_felt_at_the_triggers_too) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
-  std::this_thread::sleep_for(450ms);  // the priming pulse
+TEST_F(ConnectedPad, sides_that_matter_are_felt_at_the_triggers_too) {
+  std::this_thread::sleep_for(kPriming);
   EXPECT_EQ(pad.right_trigger(), -1);
   ASSERT_TRUE(reaches(gamepad, {0.0, 0.7, true}, [&] {
     return std::abs(pad.right_trigger() / 65535.0 - 0.7) < 0.01 && pad.left_trigger() == 0;
@@ -125,11 +123,8 @@ TEST_F(GamepadWith, sides_that_matter_are_felt_at_the_triggers_too) {
   ASSERT_TRUE(reaches(gamepad, {0.0, 0.7}, [&] { return pad.right_trigger() == 0; }));
 }
 
-TEST_F(GamepadWith, who_wishes_is_told_when_the_driver_was_if_that_is_another_command) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
-  std::this_thread::sleep_for(450ms);  // the priming pulse
+TEST_F(ConnectedPad, who_wishes_is_told_when_the_driver_was_if_that_is_another_command) {
+  std::this_thread::sleep_for(kPriming);
   std::atomic<int> left{-1};
   gamepad.rumble({0.5, 0.0}, [&] { left = pad.left(); });
   ASSERT_TRUE(eventually([&] { return left >= 0; }));
@@ -154,10 +149,7 @@ TEST_F(GamepadWith, a_wish_while_there_is_no_pad_is_not_told_to_be_felt_once_the
   EXPECT_EQ(told, 0);
 }
 
-TEST_F(GamepadWith, a_steady_wish_keeps_the_motors_turning_beyond_the_expiry) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
+TEST_F(ConnectedPad, a_steady_wish_keeps_the_motors_turning_beyond_the_expiry) {
   ASSERT_TRUE(reaches(gamepad, {0.5, 0.5}, [&] { return pad.left() > 32000; }));
   const auto end = Clock::now() + 900ms;
   while (Clock::now() < end) {
@@ -167,10 +159,7 @@ TEST_F(GamepadWith, a_steady_wish_keeps_the_motors_turning_beyond_the_expiry) {
   }
 }
 
-TEST_F(GamepadWith, the_first_touch_of_the_motors_is_soft) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
+TEST_F(ConnectedPad, the_first_touch_of_the_motors_is_soft) {
   int strongest = 0;
   EXPECT_FALSE(eventually(
       [&] {
@@ -182,10 +171,7 @@ TEST_F(GamepadWith, the_first_touch_of_the_motors_is_soft) {
   EXPECT_EQ(pad.left(), 0);
 }
 
-TEST_F(GamepadWith, a_wish_that_is_not_finite_is_silence) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
+TEST_F(ConnectedPad, a_wish_that_is_not_finite_is_silence) {
   ASSERT_TRUE(reaches(gamepad, {1.0, 1.0}, [&] { return pad.left() == 65535; }));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(reaches(gamepad, {nan, nan}, [&] { return pad.left() == 0 && pad.right() == 0; }));
@@ -202,10 +188,7 @@ TEST_F(GamepadWith, leaving_stops_the_motors) {
   EXPECT_EQ(pad.right(), 0);
 }
 
-TEST_F(GamepadWith, a_detached_pad_is_gone_within_100_ms) {
-  Gamepad gamepad;
-  VirtualPad pad;
-  ASSERT_TRUE(connects(gamepad));
+TEST_F(ConnectedPad, a_detached_pad_is_gone_within_100_ms) {
   pad.stick(0.0, -1.0);
   ASSERT_TRUE(eventually([&] { return gamepad.input().stick().y > 0.9; }));
   pad.detach();
@@ -416,45 +399,7 @@ TEST_F(GamepadWith, J8_three_hundred_attachments_and_detachments_leave_nothing_b
 
 TEST_F(GamepadWith, auto_takes_the_pad_that_is_there) {
   VirtualPad pad;
-  InputSource source("auto");
-  EXPECT_EQ(source.kind(), InputSource::Kind::pad);
-}
-
-TEST(InputSource, a_topic_is_lost_after_250_ms_of_silence) {
-  InputSource source("topic");
-  EXPECT_FALSE(source.read(0.0).live);
-  drive::InputState input;
-  input.live = true;
-  input.axes = {0.25, -0.5};
-  source.receive(input, 10.0);
-  EXPECT_TRUE(source.read(10.25).live);
-  EXPECT_EQ(source.read(10.1).stick().y, -0.5);
-  EXPECT_FALSE(source.read(10.26).live);
-}
-
-TEST(InputSource, counts_a_press_whose_messages_come_between_two_reads) {
-  InputSource source("topic");
-  drive::InputState input;
-  input.live = true;
-  input.axes = {0.0, 0.0};
-  for (const bool down : {false, true, false, true, false}) {
-    input.buttons = {down};
-    source.receive(input, 10.0);
-  }
-  EXPECT_EQ(source.read(10.0).presses.at(0), 2u);
-}
-
-TEST(InputSource, does_not_count_a_key_that_is_down_when_the_keys_come_back) {
-  InputSource source("topic");
-  drive::InputState input;
-  input.live = true;
-  input.axes = {0.0, 0.0};
-  input.buttons = {true};
-  source.receive(input, 10.0);
-  const unsigned session = source.read(10.0).session;
-  source.receive(input, 11.0);
-  EXPECT_EQ(source.read(11.0).presses.at(0), 0u);
-  EXPECT_NE(source.read(11.0).session, session) << "and the stick has to be neutral";
+  EXPECT_EQ(InputSource("auto").kind(), InputSource::Kind::pad);
 }
 
 }  // namespace

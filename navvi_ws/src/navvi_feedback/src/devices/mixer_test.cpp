@@ -30,6 +30,7 @@ Heard heard_from(const Eigen::Vector2d& from, const std::string& hrtf) {
   MixerConfig config;
   config.hrtf = hrtf;
   Mixer mixer(config, Audio::on);
+  EXPECT_EQ(mixer.status().two_ears, hrtf == "on");
   EXPECT_TRUE(mixer.play(tone(3000.0, 0.1), 1.0, from));
   pause(0.3);
   return heard();
@@ -58,14 +59,6 @@ TEST(Mixer, plays_all_as_loud_as_it_is_set) {
     return tone_in(heard().left, 3000.0);
   };
   EXPECT_NEAR(loudness_at(0.2), 0.2 * loudness_at(1.0), 0.01);
-}
-
-TEST(Mixer, tells_whether_it_plays_for_two_ears) {
-  MixerConfig config;
-  for (const char* hrtf : {"on", "off"}) {
-    config.hrtf = hrtf;
-    EXPECT_EQ(Mixer(config, Audio::on).status().two_ears, config.hrtf == "on");
-  }
 }
 
 TEST(Mixer, makes_ahead_and_behind_differ_for_two_ears) {

@@ -41,6 +41,18 @@ double loud_time() {
   return time;
 }
 
+class SilentSpeaker : public testing::Test {
+ protected:
+  /// \return whether it comes to the end of it
+  bool says(const std::string& text) {
+    speaker.start(text);
+    return wait_for([&] { return !speaker.busy(); });
+  }
+
+  Mixer mixer{MixerConfig{}, Audio::off};
+  Speaker speaker{SpeakerConfig{}, mixer};
+};
+
 TEST(SpeakerConfig, allows_no_rate_that_the_voice_does_not_keep) {
   for (const int rate : {79, 450}) {
     SpeakerConfig config;
@@ -56,28 +68,19 @@ TEST(Speaker, rejects_a_voice_that_does_not_exist) {
   EXPECT_THROW(Speaker(config, mixer), DeviceError);
 }
 
-TEST(Speaker, keeps_quiet_for_as_long_as_speaking_takes_when_it_has_no_device) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(SpeakerConfig{}, mixer);
+TEST_F(SilentSpeaker, keeps_quiet_for_as_long_as_speaking_takes_when_it_has_no_device) {
   const auto start = Clock::now();
-  speaker.start("drive straight, 8 meters");
-  EXPECT_TRUE(speaker.busy());
-  ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+  ASSERT_TRUE(says("drive straight, 8 meters"));
   EXPECT_GT(since(start), 0.5);
   EXPECT_EQ(speaker.status().spoken, 1U);
 }
 
-TEST(Speaker, speaks_faster_at_a_higher_rate) {
+TEST_F(SilentSpeaker, speaks_faster_at_a_higher_rate) {
   std::vector<double> times;
-  SpeakerConfig config;
-  config.rate = 160;
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(config, mixer);
   for (const int rate : {160, 440}) {
     speaker.set_rate(rate);
     const auto start = Clock::now();
-    speaker.start("drive straight, 8 meters");
-    ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+    ASSERT_TRUE(says("drive straight, 8 meters"));
     times.push_back(since(start));
   }
   EXPECT_GT(times[0], 1.4 * times[1]);
@@ -155,51 +158,40 @@ TEST(Speaker, plays_a_sentence_that_comes_in_two_parts_without_a_gap) {
   EXPECT_LT(unlike(said, played), 0.3 * unlike(gap, played));
 }
 
-TEST(Speaker, F4_says_a_sentence_whose_voice_is_killed_by_the_next_voice) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(SpeakerConfig{}, mixer);
+TEST_F(SilentSpeaker, F4_says_a_sentence_whose_voice_is_killed_by_the_next_voice) {
   for (unsigned i = 1; i <= 20; ++i) {
     ASSERT_EQ(voices().size(), 1U);
     ::kill(voices().front(), SIGKILL);
-    speaker.start("stop");
-    ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+    ASSERT_TRUE(says("stop"));
     EXPECT_EQ(speaker.status().spoken, i);
     EXPECT_EQ(speaker.status().losses, i);
   }
   EXPECT_EQ(speaker.status().failed, 0U);
 }
 
-TEST(Speaker, F4_kills_a_voice_that_hangs_and_says_its_sentence_by_another) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(SpeakerConfig{}, mixer);
+TEST_F(SilentSpeaker, F4_kills_a_voice_that_hangs_and_says_its_sentence_by_another) {
   const pid_t hangs = voices().at(0);
   ::kill(hangs, SIGSTOP);
-  speaker.start("stop");
-  ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+  ASSERT_TRUE(says("stop"));
   EXPECT_EQ(speaker.status().spoken, 1U);
   EXPECT_EQ(speaker.status().losses, 1U);
   EXPECT_NE(voices().at(0), hangs);
 }
 
-TEST(Speaker, F4_replaces_a_voice_that_ends_while_nothing_is_said) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(SpeakerConfig{}, mixer);
+TEST_F(SilentSpeaker, F4_replaces_a_voice_that_ends_while_nothing_is_said) {
   ::kill(voices().at(0), SIGKILL);
   EXPECT_TRUE(wait_for([&] { return speaker.status().losses == 1; }));
   EXPECT_TRUE(speaker.status().works);
 }
 
-TEST(Speaker, F4_plays_a_sound_for_words_that_no_voice_says) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(SpeakerConfig{}, mixer);
+TEST_F(SilentSpeaker, F4_plays_a_sound_for_words_that_no_voice_says) {
   const pid_t voice = voices().at(0);
   rlimit files{};
   ::getrlimit(RLIMIT_NOFILE, &files);
   const rlimit none{3, files.rlim_max};
   ::setrlimit(RLIMIT_NOFILE, &none);  // no process can be started
   ::kill(voice, SIGKILL);
-  speaker.start("stop");
-  EXPECT_TRUE(wait_for([&] { return !speaker.busy(); }));
+  EXPECT_TRUE(says("stop"));
   ::setrlimit(RLIMIT_NOFILE, &files);
   EXPECT_EQ(speaker.take_played().size(), 1U);
   EXPECT_EQ(speaker.status().failed, 1U);
@@ -230,9 +222,7 @@ TEST(Speaker, speaks_higher_at_a_higher_pitch) {
   EXPECT_GT(pitch(80), 1.2 * pitch(20));
 }
 
-TEST(Speaker, does_not_speak_what_could_harm_it) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(SpeakerConfig{}, mixer);
+TEST_F(SilentSpeaker, does_not_speak_what_could_harm_it) {
   std::string hostile;
   for (int i = 0; i < 68; ++i) hostile += "s'";
   for (const std::string& text : {hostile, std::string("<speak>"), std::string(), std::string(" ")})
@@ -241,9 +231,7 @@ TEST(Speaker, does_not_speak_what_could_harm_it) {
   EXPECT_EQ(speaker.status().failed, 4U);
 }
 
-TEST(Speaker, survives_many_starts_and_stops) {
-  Mixer mixer(MixerConfig{}, Audio::off);
-  Speaker speaker(SpeakerConfig{}, mixer);
+TEST_F(SilentSpeaker, survives_many_starts_and_stops) {
   for (int i = 0; i < 500; ++i) {
     speaker.start("turn to 3 o'clock, 8 meters");
     if (i % 3 == 0) speaker.stop();

@@ -24,11 +24,8 @@ class DriveOf : public testing::Test {
   Drive drive_{config_};
 };
 
-TEST_F(DriveOf, a_missing_stick_gives_no_command) {
+TEST_F(DriveOf, a_missing_stick_or_one_that_is_not_finite_gives_no_command) {
   EXPECT_FALSE(hold(std::nullopt, 1.0).has_value());
-}
-
-TEST_F(DriveOf, a_stick_that_is_not_finite_is_a_missing_stick) {
   arm();
   EXPECT_FALSE(drive_.update(Stick{kNan, 0.0}, kStep).has_value());
   EXPECT_FALSE(drive_.update(Stick{0.0, std::numeric_limits<double>::infinity()}, kStep));
@@ -85,12 +82,9 @@ TEST_F(DriveOf, full_stick_gives_the_maximums_with_their_signs) {
   EXPECT_NEAR(hold(Stick{-1.0, 0.0}, 3.0)->angular, -config_.max_turn, 1e-9);
 }
 
-TEST_F(DriveOf, an_axis_beyond_one_is_one) {
+TEST_F(DriveOf, the_curve_starts_at_zero_only_rises_and_ends_at_one) {
   EXPECT_NEAR(drive_.shaped({7.0, -9.0}).x, 1.0, 1e-12);
   EXPECT_NEAR(drive_.shaped({7.0, -9.0}).y, -1.0, 1e-12);
-}
-
-TEST_F(DriveOf, the_curve_starts_at_zero_and_only_rises) {
   double last = 0.0;
   for (double y = 0.0; y <= 1.0; y += 0.001) {
     const double shaped = drive_.shaped({0.0, y}).y;
@@ -118,19 +112,13 @@ TEST_F(DriveOf, never_changes_faster_than_its_limits) {
 TEST_F(DriveOf, slows_down_by_the_brakes_also_where_the_stick_is_thrown_over) {
   for (const double to : {0.0, 0.2, -1.0}) {
     arm();
-    hold(Stick{0.0, 1.0}, 3.0);
+    hold(Stick{1.0, 1.0}, 3.0);
     EXPECT_NEAR(hold(Stick{0.0, to}, kStep)->linear,
                 config_.max_forward - config_.deceleration * kStep, 1e-9);
-    hold(Stick{}, 2.0);
+    const Velocity released = *hold(Stick{}, 1.0);
+    EXPECT_EQ(released.linear, 0.0) << "a full stop";
+    EXPECT_EQ(released.angular, 0.0);
   }
-}
-
-TEST_F(DriveOf, a_released_stick_comes_to_a_full_stop) {
-  arm();
-  hold(Stick{1.0, 1.0}, 3.0);
-  const Velocity velocity = *hold(Stick{}, 1.0);
-  EXPECT_EQ(velocity.linear, 0.0);
-  EXPECT_EQ(velocity.angular, 0.0);
 }
 
 }  // namespace

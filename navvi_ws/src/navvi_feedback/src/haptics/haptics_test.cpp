@@ -42,11 +42,14 @@ TEST(Haptics, the_paper_law_is_the_formula_as_printed) {
   EXPECT_NEAR(rumble_force(paper(), 0.0), 0.693, 1e-3);
 }
 
-TEST(Haptics, the_paper_profile_gives_the_bare_formula_at_once) {
+TEST(Haptics, the_paper_profile_gives_the_bare_formula_at_once_of_the_nearest_thing) {
   Haptics haptics(paper());
   const Rumble rumble = haptics.update({thing(2.0, 2.0, 1.5)}, true, kStep);
   EXPECT_NEAR(rumble.left, std::log(1.6), 1e-12);
   EXPECT_EQ(rumble.right, 0.0);
+  const Rumble nearest = settle(haptics, {thing(3.0, 0.0, 3.5), thing(1.0, 0.0, -1.5)});
+  EXPECT_EQ(nearest.left, 0.0);
+  EXPECT_NEAR(nearest.right, std::log(1.8), 1e-12);
 }
 
 TEST(Haptics, every_curve_falls_from_one_at_touch_to_zero_at_the_range) {
@@ -65,11 +68,18 @@ TEST(Haptics, every_curve_falls_from_one_at_touch_to_zero_at_the_range) {
   }
 }
 
-TEST(Haptics, a_gap_that_is_not_finite_is_not_felt) {
+TEST(Haptics, shelves_walls_and_gaps_that_are_not_finite_are_not_felt) {
   EXPECT_EQ(rumble_force(HapticsConfig{}, kNan), 0.0);
-  Haptics haptics{HapticsConfig{}};
-  EXPECT_EQ(settle(haptics, {thing(kNan, 1.0, 2.0)}).left, 0.0);
-  EXPECT_EQ(settle(haptics, {thing(1.0, kNan, kNan)}).left, 0.0);
+  for (const NearThing& unfelt :
+       {thing(kNan, 1.0, 2.0), thing(1.0, kNan, kNan), thing(0.1, 0.5, 0.0, ThingClass::shelf),
+        thing(0.1, 0.5, 0.0, ThingClass::wall)}) {
+    Haptics haptics{HapticsConfig{}};
+    const Rumble rumble = settle(haptics, {unfelt});
+    EXPECT_EQ(rumble.left + rumble.right, 0.0) << to_string(unfelt.thing_class);
+  }
+  HapticsConfig config;
+  config.classes = {"dragon"};
+  EXPECT_THROW(Haptics{config}, navvi_config::ConfigError);
 }
 
 TEST(Haptics, the_motor_is_on_the_side_of_the_thing) {
@@ -99,21 +109,6 @@ TEST(Haptics, a_mirrored_world_feels_mirrored) {
   }
 }
 
-TEST(Haptics, only_the_nearest_thing_is_felt) {
-  Haptics haptics(paper());
-  const Rumble rumble = settle(haptics, {thing(3.0, 0.0, 3.5), thing(1.0, 0.0, -1.5)});
-  EXPECT_EQ(rumble.left, 0.0);
-  EXPECT_NEAR(rumble.right, std::log(1.8), 1e-12);
-}
-
-TEST(Haptics, shelves_and_walls_are_not_felt) {
-  Haptics haptics{HapticsConfig{}};
-  const Rumble rumble = settle(
-      haptics, {thing(0.1, 0.5, 0.0, ThingClass::shelf), thing(0.1, 0.5, 0.0, ThingClass::wall)});
-  EXPECT_EQ(rumble.left, 0.0);
-  EXPECT_EQ(rumble.right, 0.0);
-}
-
 TEST(Haptics, what_is_ahead_is_felt_before_what_rides_behind) {
   Haptics haptics((HapticsConfig()));
   const Rumble behind = settle(haptics, {thing(0.5, -0.9, 0.0)});
@@ -123,17 +118,6 @@ TEST(Haptics, what_is_ahead_is_felt_before_what_rides_behind) {
   const Rumble both = settle(haptics, {thing(0.5, -0.9, 0.0), thing(1.0, 0.5, 1.3)});
   EXPECT_GT(both.left, 0.4);
   EXPECT_EQ(both.right, 0.0) << "the one ahead on the left";
-}
-
-TEST(Haptics, the_last_metre_can_be_felt) {
-  const HapticsConfig config;
-  EXPECT_GT(rumble_force(config, 0.0) - rumble_force(config, 1.0), 0.3);
-}
-
-TEST(Haptics, an_unknown_class_in_the_list_is_refused) {
-  HapticsConfig config;
-  config.classes = {"dragon"};
-  EXPECT_THROW(Haptics{config}, navvi_config::ConfigError);
 }
 
 TEST(Haptics, stale_sensing_stops_the_motors_at_once) {
@@ -195,6 +179,7 @@ TEST(Haptics, a_thing_that_trembles_on_a_border_keeps_its_zone) {
 
 TEST(Haptics, a_motor_that_turns_gets_at_least_its_starting_threshold) {
   HapticsConfig config;
+  EXPECT_GT(rumble_force(config, 0.0) - rumble_force(config, 1.0), 0.3) << "the last metre";
   config.start_left = 0.2;
   config.gain_left = 0.8;
   Haptics haptics(config);

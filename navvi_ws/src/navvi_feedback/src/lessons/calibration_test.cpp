@@ -92,17 +92,6 @@ TEST(Calibration, finds_thresholds_strength_and_delay_and_keeps_other_pads) {
   EXPECT_NEAR(right, 1.2 * 0.12, 0.04);
   EXPECT_NEAR(gain, 0.5, 1e-9);
   EXPECT_NEAR(turn.stopping_delay, 0.35 + 0.1, 0.03);
-
-  // And this is what the motors do then.
-  haptics::Haptics haptics(found);
-  const std::vector<NearThing> touching = {{navvi_types::ThingClass::box, 1, 0.0, {0.4, 0.0}}};
-  haptics::Rumble rumble;
-  haptics.use_pad("abc");
-  for (int i = 0; i < 100; ++i) rumble = haptics.update(touching, true, 0.02);
-  EXPECT_NEAR(rumble.left, 0.5, 1e-6);
-  haptics.use_pad("unknown");
-  for (int i = 0; i < 100; ++i) rumble = haptics.update(touching, true, 0.02);
-  EXPECT_NEAR(rumble.left, 1.0, 1e-6);
 }
 
 TEST(Calibration, measures_the_stick_alone_where_there_are_no_motors) {

@@ -21,8 +21,6 @@ constexpr double kSlack = 1e-9;                  // s, of rounding
 using drive::Button;
 using navvi_config::ConfigError;
 
-constexpr double kLean = 0.6;     // of the stick
-constexpr double kUpright = 0.3;  // it is at rest again
 constexpr double kEvery = 0.7;    // s, between two steps while it is held
 
 std::string key(const char* name) { return std::string("ask_") + name; }
@@ -179,8 +177,8 @@ void Questionnaire::obey(Button button) {
 
 /// The stick up or down is a press of more or less, again and again while it is held.
 void Questionnaire::lean(const drive::Stick& stick) {
-  if (std::abs(stick.y) < kUpright) leans_ = false;
-  if (std::abs(stick.y) < kLean || (leans_ && time_ - leaned_ < kEvery)) return;
+  if (std::abs(stick.y) < kRest) leans_ = false;
+  if (std::abs(stick.y) < kPushed || (leans_ && time_ - leaned_ < kEvery)) return;
   leans_ = true;
   leaned_ = time_;
   change(stick.y > 0.0);

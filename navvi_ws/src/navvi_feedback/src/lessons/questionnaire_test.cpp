@@ -13,38 +13,34 @@ namespace {
 using drive::Button;
 using navvi_config::ConfigError;
 
-class QuestionnaireTest : public testing::Test {
+using Said = std::vector<std::string>;
+
+/// Somebody who hears each sentence for half a second.
+class AskedTest : public testing::Test {
  protected:
-  QuestionnaireTest()
+  explicit AskedTest(const Question& first)
       : asked_(cues::Phrases(NAVVI_FEEDBACK_CONFIG_DIR "/phrases/en.yaml"), {},
-               {{"mental", "Mental demand. How much", {"0", "50", "100"}, {"low", "half", "high"}},
-                {"again", "Once more", {"no", "yes"}, {"no", "yes"}}}) {
-    live(60.0);
-  }
+               {first, {"again", "Once more", {"no", "yes"}, {"no", "yes"}}}) {}
 
   /// \return what was said meanwhile
-  std::vector<std::string> live(double seconds, std::vector<Button> pressed = {},
-                                double forward = 0.0) {
-    std::vector<std::string> said;
-    for (const double end = time_ + seconds; time_ < end && !asked_.over(); time_ += 0.02) {
+  Said live(double seconds, drive::Stick stick = {}, std::vector<Button> pressed = {}) {
+    Said said;
+    for (auto left = std::lround(seconds / 0.02); left > 0 && !asked_.over(); --left) {
       Observation seen;
       seen.pressed = std::exchange(pressed, {});
-      seen.stick.y = forward;
+      seen.stick = stick;
       seen.voice_busy = time_ < speaks_until_;
       for (const cues::Cue& cue : asked_.update(seen, time_).cues) {
         said.push_back(cue.text);
         speaks_until_ = time_ + 0.5;
       }
+      time_ += 0.02;
     }
     return said;
   }
-  std::vector<std::string> press(Button button) { return live(5.0, {button}); }
-  [[nodiscard]] std::string answer(const std::string& item) const {
-    const std::string table = asked_.record();
-    const std::size_t at = table.find("\n" + item + ",");
-    if (at == std::string::npos) return "";
-    const std::size_t begin = at + item.size() + 2;
-    return table.substr(begin, table.find(',', begin) - begin);
+  Said press(Button button) { return live(5.0, {}, {button}); }
+  void expect_record(const std::string& row) const {
+    EXPECT_NE(asked_.record().find("\n" + row), std::string::npos) << asked_.record();
   }
 
   Questionnaire asked_;
@@ -52,43 +48,47 @@ class QuestionnaireTest : public testing::Test {
   double speaks_until_ = 0.0;
 };
 
-using Said = std::vector<std::string>;
+class QuestionnaireTest : public AskedTest {
+ protected:
+  QuestionnaireTest()
+      : AskedTest(
+            {"mental", "Mental demand. How much", {"0", "50", "100"}, {"low", "half", "high"}}) {
+    live(60.0);
+  }
+};
 
 TEST_F(QuestionnaireTest, takes_an_answer_only_once_one_was_chosen) {
   EXPECT_EQ(press(Button::start), Said{"choose first"});
-  EXPECT_EQ(answer("mental"), "");
+  EXPECT_EQ(asked_.record(), "item,answer,seconds\n");
   EXPECT_EQ(press(Button::previous), Said{"half"});
   EXPECT_EQ(press(Button::previous), Said{"high"});
   EXPECT_EQ(press(Button::previous), Said{"high"}) << "there is no more";
   EXPECT_EQ(press(Button::start), Said{"Once more"});
-  EXPECT_EQ(answer("mental"), "100");
+  expect_record("mental,100,");
 }
 
-TEST_F(QuestionnaireTest, an_answer_is_corrected_by_going_back) {
+TEST_F(QuestionnaireTest, a_question_is_heard_again_and_its_answer_corrected_by_going_back) {
+  press(Button::next);
+  const Said question = {"Mental demand", "How much", "half"};
+  EXPECT_EQ(press(Button::repeat), question) << "with what is chosen";
+  press(Button::choose);
+  EXPECT_EQ(press(Button::back), question);
   press(Button::next);
   press(Button::choose);
-  EXPECT_EQ(press(Button::back), (Said{"Mental demand", "How much", "half"}));
-  press(Button::next);
-  press(Button::choose);
-  EXPECT_EQ(answer("mental"), "0");
+  expect_record("mental,0,");
   EXPECT_FALSE(asked_.over());
 }
 
 TEST_F(QuestionnaireTest, nobody_has_to_say) {
   EXPECT_EQ(press(Button::end), (Said{"rather not say", "Once more"}));
-  EXPECT_EQ(answer("mental"), Questionnaire::kDeclined);
-}
-
-TEST_F(QuestionnaireTest, a_question_is_heard_again_with_what_is_chosen) {
-  press(Button::next);
-  EXPECT_EQ(press(Button::repeat), (Said{"Mental demand", "How much", "half"}));
+  expect_record("mental,declined,");
 }
 
 TEST_F(QuestionnaireTest, the_stick_chooses_too_step_by_step_while_it_is_held) {
-  EXPECT_EQ(live(0.5, {}, 1.0), Said{"half"});
-  EXPECT_EQ(live(0.6, {}, 1.0), Said{"high"});
+  EXPECT_EQ(live(0.5, {0.0, 1.0}), Said{"half"});
+  EXPECT_EQ(live(0.6, {0.0, 1.0}), Said{"high"});
   live(0.5);
-  EXPECT_EQ(live(0.5, {}, -1.0), Said{"half"});
+  EXPECT_EQ(live(0.5, {0.0, -1.0}), Said{"half"});
 }
 
 TEST_F(QuestionnaireTest, it_ends_when_the_last_answer_is_confirmed) {
@@ -99,7 +99,7 @@ TEST_F(QuestionnaireTest, it_ends_when_the_last_answer_is_confirmed) {
   EXPECT_FALSE(asked_.over());
   press(Button::choose);
   EXPECT_TRUE(asked_.over());
-  EXPECT_EQ(answer("again"), "yes");
+  expect_record("again,yes,");
 }
 
 TEST(Questions, are_read_from_a_file_and_wrong_ones_are_refused) {
@@ -112,45 +112,21 @@ TEST(Questions, are_read_from_a_file_and_wrong_ones_are_refused) {
       read("items: [{name: a, ask: How much, values: [0, 1], spoken: [none, all]}]");
   ASSERT_EQ(questions.size(), 1u);
   EXPECT_EQ(questions[0].spoken[1], "all");
-  EXPECT_THROW(read("items: []"), ConfigError);
   EXPECT_TRUE(read("items: [{name: a, ask: How, point: true}]").front().point);
-  EXPECT_THROW(read("items: [{name: a, ask: How, point: false}]"), ConfigError);
-  EXPECT_THROW(read("items: [{name: a, ask: How}]"), ConfigError);
-  EXPECT_THROW(read("items: [{name: a, ask: How, point: true, values: [0], spoken: [a]}]"),
-               ConfigError);
-  EXPECT_THROW(read("items: [{name: a, ask: How, values: [0], spoken: [a, b]}]"), ConfigError);
-  EXPECT_THROW(read("items: [{name: a, ask: \"How?\", values: [0], spoken: [a]}]"), ConfigError);
-  EXPECT_THROW(read("items: [{name: a, ask: How, values: [\"0,1\"], spoken: [a]}]"), ConfigError);
-  EXPECT_THROW(read("items: [{name: a, ask: How, value: [0], spoken: [a]}]"), ConfigError);
+  for (const char* wrong :
+       {"", "{name: a, ask: How, point: false}", "{name: a, ask: How}",
+        "{name: a, ask: How, point: true, values: [0], spoken: [a]}",
+        "{name: a, ask: How, values: [0], spoken: [a, b]}",
+        "{name: a, ask: \"How?\", values: [0], spoken: [a]}",
+        "{name: a, ask: How, values: [\"0,1\"], spoken: [a]}",
+        "{name: a, ask: How, value: [0], spoken: [a]}"})
+    EXPECT_THROW(read("items: [" + std::string(wrong) + "]"), ConfigError) << wrong;
   EXPECT_THROW(read_questions("/nonexistent/questions.yaml"), ConfigError);
 }
 
-class PointingTest : public testing::Test {
+class PointingTest : public AskedTest {
  protected:
-  /// \return what was said meanwhile
-  std::vector<std::string> live(double seconds, drive::Stick stick = {},
-                                std::vector<Button> pressed = {}) {
-    std::vector<std::string> said;
-    for (auto left = std::lround(seconds / 0.02); left > 0; --left, time_ += 0.02) {
-      Observation seen;
-      seen.pressed = std::exchange(pressed, {});
-      seen.stick = stick;
-      seen.voice_busy = time_ < speaks_until_;
-      for (const cues::Cue& cue : asked_.update(seen, time_).cues) {
-        said.push_back(cue.text);
-        speaks_until_ = time_ + 0.5;
-      }
-    }
-    return said;
-  }
-  std::vector<std::string> press(Button button) { return live(3.0, {}, {button}); }
-
-  Questionnaire asked_{cues::Phrases(NAVVI_FEEDBACK_CONFIG_DIR "/phrases/en.yaml"),
-                       {},
-                       {{"goal", "Where is the goal", {}, {}, true},
-                        {"again", "Once more", {"no", "yes"}, {"no", "yes"}, false}}};
-  double time_ = 0.0;
-  double speaks_until_ = 0.0;
+  PointingTest() : AskedTest({"goal", "Where is the goal", {}, {}, true}) {}
 };
 
 TEST_F(PointingTest, a_direction_is_pointed_corrected_and_confirmed) {
@@ -161,10 +137,10 @@ TEST_F(PointingTest, a_direction_is_pointed_corrected_and_confirmed) {
   live(1.0);
   EXPECT_EQ(live(2.0, {-0.5, -0.87}), Said{"5 o'clock"}) << "behind, right";
   EXPECT_EQ(press(Button::start), Said{"Once more"});
-  EXPECT_NE(asked_.record().find("goal,-150,"), std::string::npos) << asked_.record();
+  expect_record("goal,-150,");
   EXPECT_EQ(press(Button::back), (Said{"Where is the goal", "5 o'clock"}));
   press(Button::end);
-  EXPECT_NE(asked_.record().find("goal,declined,"), std::string::npos) << asked_.record();
+  expect_record("goal,declined,");
 }
 
 TEST_F(PointingTest, a_correction_needs_a_push_of_its_own) {
@@ -174,7 +150,7 @@ TEST_F(PointingTest, a_correction_needs_a_push_of_its_own) {
   live(1.0);
   EXPECT_EQ(live(2.0, {0.0, -1.0}), Said{"6 o'clock"});
   press(Button::start);
-  EXPECT_NE(asked_.record().find("goal,180,"), std::string::npos) << asked_.record();
+  expect_record("goal,180,");
 }
 
 TEST_F(PointingTest, a_direction_between_two_hours_is_said_as_those_of_the_guide_are) {
@@ -198,9 +174,13 @@ TEST(Pointed, is_said_as_the_person_wants_directions) {
   EXPECT_EQ(last, "90 grados a la izquierda");
 }
 
-TEST_F(PointingTest, a_stick_too_little_pushed_or_not_long_enough_takes_nothing) {
+TEST_F(PointingTest, a_stick_too_little_pushed_unsteady_or_not_long_enough_takes_nothing) {
   live(60.0);
   EXPECT_EQ(live(2.0, {0.5, 0.0}), Said{});
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(live(0.3, {1.0, 0.0}), Said{});
+    EXPECT_EQ(live(0.3, {0.0, 1.0}), Said{});
+  }
   EXPECT_EQ(live(0.4, {1.0, 0.0}), Said{});
   EXPECT_EQ(press(Button::start), Said{"point first, with the stick"});
 }
@@ -223,7 +203,7 @@ TEST_F(PointingTest, seconds_are_those_from_the_end_of_the_words_to_the_push) {
   live(2.5 - 0.02);  // 0.5 s of them the voice speaks
   live(3.0, {0.0, -1.0});
   press(Button::start);
-  EXPECT_NE(asked_.record().find("goal,180,2.0"), std::string::npos) << asked_.record();
+  expect_record("goal,180,2.0");
 }
 
 TEST_F(PointingTest, seconds_of_a_correction_are_those_to_its_own_push) {
@@ -233,22 +213,14 @@ TEST_F(PointingTest, seconds_of_a_correction_are_those_to_its_own_push) {
   live(1.0);
   live(1.0, {1.0, 0.0});
   press(Button::start);
-  EXPECT_NE(asked_.record().find("goal,90,3.0"), std::string::npos) << asked_.record();
-}
-
-TEST_F(PointingTest, an_unsteady_stick_takes_nothing) {
-  live(60.0);
-  for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(live(0.3, {1.0, 0.0}), Said{});
-    EXPECT_EQ(live(0.3, {0.0, 1.0}), Said{});
-  }
+  expect_record("goal,90,3.0");
 }
 
 TEST_F(PointingTest, a_push_before_the_words_ended_took_no_time) {
   live(0.1);
   live(2.0, {1.0, 0.0});
   press(Button::start);
-  EXPECT_NE(asked_.record().find("goal,90,0.0"), std::string::npos) << asked_.record();
+  expect_record("goal,90,0.0");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 namespace navvi_feedback::lessons {
 namespace {
@@ -40,39 +41,12 @@ const std::vector<Step>& Tutorial::steps() {
 
 std::vector<std::string> Tutorial::texts() {
   std::vector<std::string> keys;
-  for (const char* name : {"welcome",
-                           "buttons",
-                           "keys",
-                           "good",
-                           "skipped",
-                           "enough",
-                           "stop",
-                           "practice",
-                           "well",
-                           "done",
-                           "end",
-                           "wrong_hit",
-                           "wrong_back",
-                           "wrong_crooked",
-                           "wrong_driven",
-                           "wrong_short",
-                           "wrong_early",
-                           "wrong_late",
-                           "wrong_moved",
-                           "wrong_stood",
-                           "wrong_soon",
-                           "wrong_forward",
-                           "wrong_not_back",
-                           "wrong_place",
-                           "wrong_side",
-                           "wrong_too_far",
-                           "wrong_too_little",
-                           "wrong_was_left",
-                           "wrong_was_right",
-                           "wrong_was_ahead",
-                           "wrong_button",
-                           "wrong_no_goal"})
-    keys.push_back(tutorial_key(name));
+  std::istringstream names(
+      "welcome buttons keys good skipped enough stop practice well done end wrong_hit "
+      "wrong_back wrong_crooked wrong_driven wrong_short wrong_early wrong_late wrong_moved "
+      "wrong_stood wrong_soon wrong_forward wrong_not_back wrong_place wrong_side wrong_too_far "
+      "wrong_too_little wrong_was_left wrong_was_right wrong_was_ahead wrong_button wrong_no_goal");
+  for (std::string name; names >> name;) keys.push_back(tutorial_key(name));
   for (const Step& step : steps()) keys.push_back(tutorial_key(step.name));
   return keys;
 }

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <navvi_config/reader.hpp>
-#include <sstream>
+
+#include "temp_folder.hpp"
 
 namespace navvi_feedback::menu {
 namespace {
@@ -14,16 +13,9 @@ namespace fs = std::filesystem;
 
 class PlacesFileTest : public testing::Test {
  protected:
-  PlacesFileTest() {
-    std::string name = (fs::temp_directory_path() / "places_XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  ~PlacesFileTest() override { fs::remove_all(folder_); }
-
   [[nodiscard]] fs::path file() const { return folder_ / "places.yaml"; }
   [[nodiscard]] std::vector<NamedPlace> read(const std::string& text) const {
-    std::ofstream(file()) << text;
-    return read_places(file());
+    return read_places(folder_.write("places.yaml", text));
   }
   /// The sentence without the file, which every one names first.
   [[nodiscard]] std::string rejected(const std::string& text) const {
@@ -37,7 +29,7 @@ class PlacesFileTest : public testing::Test {
     return "";
   }
 
-  fs::path folder_;
+  navvi_test::TempFolder folder_;
 };
 
 TEST_F(PlacesFileTest, holds_places_in_their_order) {
@@ -107,9 +99,7 @@ TEST_F(PlacesFileTest, goes_on_with_more_places_and_keeps_what_was_there) {
            {"  - {name: gate, x: 1, y: 2}\n", "- {name: gate, x: 1.00, y: 2.00}\n" + more}}) {
     (void)read(before);
     add_places(file(), {{"place 1", {3.1415, -0.5}}});
-    std::ostringstream text;
-    text << std::ifstream(file()).rdbuf();
-    EXPECT_EQ(text.str(), after);
+    EXPECT_EQ(folder_.text("places.yaml"), after);
     EXPECT_EQ(read_places(file()).back().name, "place 1");
   }
 }

@@ -75,24 +75,17 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
 
 DiagnosticStatus audio_status(const devices::Mixer::Status& mixer) {
   using Device = devices::Mixer::Status::Device;
-  DiagnosticStatus result;
-  std::string state = "missing";
-  switch (mixer.device) {
-    case Device::open:
-      state = "works";
-      result = status("navvi/audio", DiagnosticStatus::OK, "Open.");
-      break;
-    case Device::missing:
-      result = status("navvi/audio", DiagnosticStatus::ERROR, "There is no audio device.");
-      break;
-    case Device::lost:
-      result = status("navvi/audio", DiagnosticStatus::ERROR, "The audio device was lost.");
-      break;
-    case Device::off:
-      state = "off";
-      result = status("navvi/audio", DiagnosticStatus::WARN, "Sound is switched off.");
-      break;
-  }
+  const bool open = mixer.device == Device::open, off = mixer.device == Device::off;
+  const std::string state = open ? "works" : off ? "off" : "missing";
+  DiagnosticStatus result =
+      status("navvi/audio",
+             open  ? DiagnosticStatus::OK
+             : off ? DiagnosticStatus::WARN
+                   : DiagnosticStatus::ERROR,
+             open                              ? "Open."
+             : off                             ? "Sound is switched off."
+             : mixer.device == Device::missing ? "There is no audio device."
+                                               : "The audio device was lost.");
   if (!mixer.detail.empty()) result.message += " " + mixer.detail;
   add(result, "device", mixer.name.empty() ? "none" : mixer.name);
   add(result, "state", state);

@@ -61,14 +61,12 @@ TEST(Diagnostics, tell_how_long_the_person_waited_for_what_was_seen) {
 TEST(Diagnostics, tell_sound_that_is_off_from_sound_that_is_missing) {
   using Device = devices::Mixer::Status::Device;
   devices::Mixer::Status mixer;
-  const auto state = [&](Device device) {
+  for (const auto& [device, state] :
+       {std::pair(Device::open, "works"), std::pair(Device::off, "off"),
+        std::pair(Device::missing, "missing"), std::pair(Device::lost, "missing")}) {
     mixer.device = device;
-    return state_of(audio_status(mixer));
-  };
-  EXPECT_EQ(state(Device::open), "works");
-  EXPECT_EQ(state(Device::off), "off");
-  EXPECT_EQ(state(Device::missing), "missing");
-  EXPECT_EQ(state(Device::lost), "missing");
+    EXPECT_EQ(state_of(audio_status(mixer)), state);
+  }
 }
 
 TEST(Diagnostics, a_beat_that_is_late_is_a_warning) {

@@ -125,12 +125,10 @@ void Inlets::subscribe_to_robot(const NodeConfig& config) {
     if (twin_) state.intruder.clear();
     guide_.take(state, now());
   });
-  listen<navvi_msgs::LinkState>("navvi/link", 1,
-                                [this](const auto& link) { guide_.take(link, now()); });
-  listen<navvi_msgs::Zone>("navvi/zone", 1,
-                           [this](const auto& zone) { guide_.take(zone, now()); });
-  listen<nav_msgs::Odometry>("odom", 1,
-                             [this](const auto& odometry) { guide_.take(odometry, now()); });
+  const auto take = [this](const auto& value) { guide_.take(value, now()); };
+  listen<navvi_msgs::LinkState>("navvi/link", 1, take);
+  listen<navvi_msgs::Zone>("navvi/zone", 1, take);
+  listen<nav_msgs::Odometry>("odom", 1, take);
   listen<nav_msgs::Path>("navvi/path", 1, [this](const auto& path) { path_ = path; });
   listen<nav_msgs::Path>("navvi/preview", 1, [this](const auto& path) { preview_ = path; });
 }

@@ -6,7 +6,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
+
+#include "temp_folder.hpp"
 
 namespace navvi_feedback::person {
 namespace {
@@ -35,22 +36,10 @@ struct Config {
 
 class PersonFileTest : public testing::Test {
  protected:
-  PersonFileTest() {
-    fs::remove_all(folder_);
-    setenv("NAVVI_PEOPLE", folder_.c_str(), 1);
-  }
-  ~PersonFileTest() override { fs::remove_all(folder_); }
+  PersonFileTest() { setenv("NAVVI_PEOPLE", folder_.c_str(), 1); }
 
   static PersonFile anna() { return PersonFile::of<Config>("anna"); }
-  [[nodiscard]] std::string content() const {
-    std::ostringstream text;
-    text << std::ifstream(folder_ / "anna.yaml").rdbuf();
-    return text.str();
-  }
-  void write(const std::string& text) const {
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "anna.yaml") << text;
-  }
+  [[nodiscard]] std::string content() const { return home_.text("people/anna.yaml"); }
   /// The sentence with which it is refused.
   template <typename Act>
   static std::string refused(const Act& act) {
@@ -62,7 +51,8 @@ class PersonFileTest : public testing::Test {
     return "";
   }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) / "navvi_people" / "of_a_test";
+  const navvi_test::TempFolder home_;
+  const fs::path folder_ = home_ / "people";
 };
 
 TEST_F(PersonFileTest, a_new_person_has_no_settings_and_gets_a_file_with_the_first) {
@@ -102,7 +92,7 @@ TEST_F(PersonFileTest, a_wrong_file_is_refused_by_a_sentence_and_never_written_o
            {"pitch: 3\n",
             ", line 1: the key \"pitch\" is unknown; known here are classes, speech, voice."},
            {"voice: {rate: 1\n", ", line 2: this is not YAML: end of map flow not found."}}) {
-    write(text);
+    home_.write("people/anna.yaml", text);
     EXPECT_EQ(refused([] { (void)anna().load(); }), file + sentence);
     EXPECT_EQ(refused([] { anna().save({"voice/rate:=300"}); }), file + sentence);
     EXPECT_EQ(content(), text);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "person/person_file.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_feedback::person {
 namespace {
@@ -23,18 +24,15 @@ struct Config {
 
 class SaverTest : public testing::Test {
  protected:
-  SaverTest() {
-    fs::remove_all(folder_);
-    setenv("NAVVI_PEOPLE", folder_.c_str(), 1);
-  }
-  ~SaverTest() override { fs::remove_all(folder_); }
+  SaverTest() { setenv("NAVVI_PEOPLE", folder_.c_str(), 1); }
   static PersonFile anna() { return PersonFile::of<Config>("anna"); }
   static Saver<std::string> saver_of_anna() {
     return {[](const std::vector<std::string>& words) { anna().save(words); },
             {CueKind::settings, About::not_saved}};
   }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) / "navvi_people" / "of_a_saver";
+  const navvi_test::TempFolder home_;
+  const fs::path folder_ = home_ / "people";
 };
 
 TEST_F(SaverTest, saves_all_there_is_before_the_end) {
@@ -60,7 +58,6 @@ TEST_F(SaverTest, without_a_file_says_once_that_nothing_is_kept) {
 }
 
 TEST_F(SaverTest, tells_what_cannot_be_written) {
-  fs::create_directories(folder_.parent_path());
   std::ofstream(folder_) << "a file where the folder should be";
   Saver<std::string> saver = saver_of_anna();
   saver.save("rate:=300");

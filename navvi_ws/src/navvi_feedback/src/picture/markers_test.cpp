@@ -35,9 +35,12 @@ Guidance following() {
   return guidance;
 }
 
-std::set<std::pair<std::string, int>> names(const MarkerArray& array) {
-  std::set<std::pair<std::string, int>> result;
-  for (const Marker& marker : array.markers) result.emplace(marker.ns, marker.id);
+using Names = std::set<std::string>;
+
+Names shown(const MarkerArray& array) {
+  Names result;
+  for (const Marker& marker : array.markers)
+    if (marker.action == Marker::ADD) result.insert(marker.ns + " " + std::to_string(marker.id));
   return result;
 }
 
@@ -63,26 +66,35 @@ double contrast(double one, double other) {
   return (std::max(one, other) + 0.05) / (std::min(one, other) + 0.05);
 }
 
-TEST(Markers, without_guidance_everything_is_deleted) {
-  for (const auto& guidance : {std::optional<Guidance>{}, std::optional<Guidance>{Guidance{}}}) {
+TEST(Markers, without_guidance_and_at_the_goal_everything_is_deleted) {
+  Guidance arrived = following();
+  arrived.state = Guidance::State::arrived;
+  for (const auto& guidance : {std::optional<Guidance>{}, std::optional(Guidance{}),
+                               std::optional(arrived)}) {
     const MarkerArray array = markers_of(guidance, kPath);
-    EXPECT_EQ(names(array), names(markers_of(following(), kPath)));
+    EXPECT_EQ(array.markers.size(), markers_of(following(), kPath).markers.size());
     for (const Marker& marker : array.markers) EXPECT_EQ(marker.action, Marker::DELETE);
   }
 }
 
-TEST(Markers, at_the_goal_the_line_is_cleared) {
+TEST(Markers, show_the_goal_the_path_if_there_is_one_and_the_turn_if_there_is_one) {
+  const Names goal = {"goal 0", "goal 1", "label 0", "stop 0"};
+  Names way = goal;
+  way.insert({"path 0", "path 1"});
+  Names turn = way;
+  turn.insert("turn 0");
+  EXPECT_EQ(shown(markers_of(following(), {})), goal);
+  EXPECT_EQ(shown(markers_of(following(), kPath, "")), turn) << "something else is to be done";
+  turn.insert("label 1");
+  EXPECT_EQ(shown(markers_of(following(), kPath)), turn);
   Guidance guidance = following();
-  guidance.state = Guidance::State::arrived;
-  for (const Marker& marker : markers_of(guidance, kPath).markers)
-    EXPECT_EQ(marker.action, Marker::DELETE);
-}
-
-TEST(Markers, an_empty_path_leaves_only_the_goal) {
-  const MarkerArray array = markers_of(following(), {});
-  EXPECT_EQ(find(array, "path", 1)->action, Marker::DELETE);
-  EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
-  EXPECT_EQ(find(array, "goal", 0)->action, Marker::ADD);
+  guidance.turn_angle = 0.17;
+  EXPECT_EQ(shown(markers_of(guidance, kPath)), way) << "a slight bend";
+  guidance = following();
+  guidance.waypoint = guidance.goal;
+  guidance.waypoint_is_goal = true;
+  EXPECT_EQ(shown(markers_of(guidance, kPath)), way) << "before the goal";
+  EXPECT_EQ(shown(markers_of(preview_of(kPath), kPath)), way);
 }
 
 TEST(Markers, every_marker_is_finite_and_drawable) {
@@ -126,13 +138,8 @@ TEST(Markers, the_turn_shows_its_words_and_points_along_the_next_leg) {
   EXPECT_LT(arrow.points[1].y, arrow.points[0].y);
 }
 
-TEST(Markers, a_person_who_is_to_do_something_else_reads_no_turn) {
-  const MarkerArray array = markers_of(following(), kPath, "");
-  EXPECT_EQ(find(array, "label", 1)->action, Marker::DELETE);
-  EXPECT_EQ(find(array, "turn", 0)->action, Marker::ADD);
-}
-
 TEST(Markers, speak_the_language_of_the_session) {
+  EXPECT_EQ(find(markers_of(following(), kPath), "label", 0)->text, "GOAL");
   EXPECT_EQ(find(markers_of(following(), kPath, "", "es"), "label", 0)->text, "META");
 }
 
@@ -146,14 +153,6 @@ TEST(Markers, the_arrow_shows_two_corners_that_are_said_as_one_turn_as_one) {
   EXPECT_LT(arrow.points[1].y, -1.0);
 }
 
-TEST(Markers, a_slight_bend_is_no_turn) {
-  Guidance guidance = following();
-  guidance.turn_angle = 0.17;
-  const MarkerArray array = markers_of(guidance, kPath);
-  EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
-  EXPECT_EQ(find(array, "label", 1)->action, Marker::DELETE);
-}
-
 TEST(Markers, everything_stands_on_the_floor_of_the_map) {
   Guidance guidance = following();
   const MarkerArray flat = markers_of(guidance, kPath);
@@ -165,21 +164,10 @@ TEST(Markers, everything_stands_on_the_floor_of_the_map) {
   }
 }
 
-TEST(Markers, before_the_goal_there_is_no_turn) {
-  Guidance guidance = following();
-  guidance.waypoint = guidance.goal;
-  guidance.waypoint_is_goal = true;
-  EXPECT_EQ(find(markers_of(guidance, kPath), "turn", 0)->action, Marker::DELETE);
-  EXPECT_EQ(find(markers_of(guidance, kPath), "label", 0)->text, "GOAL");
-}
-
-TEST(Markers, a_preview_shows_the_path_and_the_goal_and_no_turn) {
+TEST(Markers, a_preview_ends_at_the_end_of_its_path) {
   const MarkerArray array = markers_of(preview_of(kPath), kPath);
-  ASSERT_NE(find(array, "path", 1), nullptr);
   EXPECT_EQ(find(array, "path", 1)->points.size(), kPath.size());
-  EXPECT_EQ(find(array, "goal", 0)->action, Marker::ADD);
   EXPECT_DOUBLE_EQ(find(array, "goal", 0)->pose.position.y, kPath.back().y());
-  EXPECT_EQ(find(array, "turn", 0)->action, Marker::DELETE);
 }
 
 }  // namespace

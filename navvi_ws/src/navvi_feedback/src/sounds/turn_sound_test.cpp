@@ -156,12 +156,6 @@ TEST(TurnSound, learns_what_is_left_of_turns) {
   EXPECT_NEAR(late.sound_.learnt().turn_error, 0.4 * 1.2, 0.1) << "0.4 s late, at 1.2 rad/s";
 }
 
-TEST(TurnSound, sounds_to_stop_again_to_who_has_missed_it) {
-  Turner person{TurnConfig{}};
-  person.turn(80.0, 0.3, 1.2, 2);
-  EXPECT_GE(person.stops, 3);
-}
-
 TEST(TurnSound, ends_turns_the_slower_the_less_alike_the_stops_are) {
   // deg, what is left of a turn by a person who stops now sooner, now later
   const auto error = [](double slow_down) {

@@ -102,6 +102,10 @@ TEST(Hearing, misses_mistakes_and_masks_as_often_as_it_is_said_to_and_nothing_wi
     EXPECT_EQ(tone->side, Instruction::Side::right);
     EXPECT_EQ(tone->reaction, config.sound_reaction);
   }
+  config.words = config.sounds = false;
+  Hearing deaf(config, 1);
+  EXPECT_FALSE(deaf.words("straight ahead", 1.0));
+  EXPECT_FALSE(deaf.sound({Earcon::turn, 0.6, 0.0}, false, 0.0));
 }
 
 TEST(Hearing, spreads_reactions_within_a_person_and_follows_no_speech_that_is_too_fast) {
@@ -114,14 +118,6 @@ TEST(Hearing, spreads_reactions_within_a_person_and_follows_no_speech_that_is_to
   EXPECT_NEAR(reaction.mean, config.sound_reaction, 0.05);
   EXPECT_GT(reaction.deviation, 0.1);
   EXPECT_FALSE(ear.words(std::string(100, 'a'), 100.0 / 2.1 / config.fastest_speech));
-}
-
-TEST(Hearing, gets_nothing_of_a_channel_that_is_off) {
-  HearingConfig config;
-  config.words = config.sounds = false;
-  Hearing ear(config, 1);
-  EXPECT_FALSE(ear.words("straight ahead", 1.0));
-  EXPECT_FALSE(ear.sound({Earcon::turn, 0.6, 0.0}, false, 0.0));
 }
 
 TEST(Turning, over_rotates_a_typical_person_as_much_as_was_measured_by_class_of_turn) {

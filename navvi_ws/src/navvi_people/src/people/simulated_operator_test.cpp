@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <vector>
 
 namespace navvi_people::people {
 namespace {
@@ -13,7 +12,6 @@ namespace {
 using Moment = Speech::Moment;
 
 constexpr double kStep = 0.02;
-constexpr double kPi = 3.14159265358979323846;
 
 /// A stick with a dead zone, finer near the centre.
 double shaped(double stick) {
@@ -32,53 +30,43 @@ SimulatedOperatorConfig steady(std::uint64_t seed) {
   return config;
 }
 
-struct Point {
-  double x;
-  double y;
-};
-
-/// A robot without inertia on an empty floor, and a voice that leads it from corner to corner.
+/// A robot without inertia on an empty floor, and a voice.
 class Loop {
  public:
-  Loop(std::uint64_t seed, std::vector<Point> corners)
-      : person(steady(seed), NAVVI_PHRASES, 1), corners_(std::move(corners)) {}
+  explicit Loop(std::uint64_t seed = 1) : Loop(steady(seed), 1) {}
+  Loop(const SimulatedOperatorConfig& config, int occasion)
+      : person(config, NAVVI_PHRASES, occasion) {}
 
-  /// One step of the hand; the voice stays silent.
-  StickAndButtons step() {
-    time += kStep;
-    const auto hand = person.update(time, kStep);
-    const double speed = shaped(hand.forward) * (hand.forward > 0.0 ? 0.9 : 0.5);
-    x += speed * std::cos(yaw) * kStep;
-    y += speed * std::sin(yaw) * kStep;
-    yaw += 1.2 * shaped(hand.left) * kStep;
-    moved |= hand.forward != 0.0 || hand.left != 0.0;
-    asked |= hand.repeat;
+  /// The hand; the voice stays silent. \return the last of it
+  StickAndButtons pass(int steps) {
+    StickAndButtons hand;
+    for (; steps > 0; --steps) {
+      time += kStep;
+      hand = person.update(time, kStep);
+      const double speed = shaped(hand.forward) * (hand.forward > 0.0 ? 0.9 : 0.5);
+      x += speed * std::cos(yaw) * kStep;
+      y += speed * std::sin(yaw) * kStep;
+      yaw += 1.2 * shaped(hand.left) * kStep;
+      moved |= hand.forward != 0.0 || hand.left != 0.0;
+      asked |= hand.repeat;
+      presses += hand.start && !pressed_ ? 1 : 0;
+      pressed_ = hand.start;
+    }
     return hand;
   }
 
-  void say(const std::string& text) {
-    ++id_;
-    person.hear(Speech{id_, Moment::begins, text}, time);
-    speaking_until_ = time + 0.4 + static_cast<double>(text.size()) / 18.0;
-    speaking_ = true;
+  void begin(const std::string& text) {
+    person.hear(Speech{++id_, Moment::begins, text}, time);
   }
-
-  /// Leads to the last corner. False if it takes longer than `limit` seconds.
-  bool lead(double limit) {
-    const double end = time + limit;
-    while (time < end && !person.arrived()) {
-      const auto hand = step();
-      if (speaking_ && time >= speaking_until_) {
-        person.hear(Speech{id_, Moment::ends}, time);
-        speaking_ = false;
-      }
-      if (distance() < 1.0 && next_ + 1 < corners_.size()) {
-        ++next_;
-        last_hour_ = 0;
-      }
-      if (!speaking_) speak(hand.repeat);
-    }
-    return person.arrived();
+  void end(Moment moment = Moment::ends) { person.hear(Speech{id_, moment}, time); }
+  /// From its first word to its last.
+  void say(const std::string& text) {
+    begin(text);
+    end();
+  }
+  /// A short sound: from the left, the right or, with both, from ahead.
+  void sound(Earcon earcon, double left, double right) {
+    person.hear(Sound{earcon, left, right}, time);
   }
 
   SimulatedOperator person;
@@ -88,46 +76,18 @@ class Loop {
   double yaw = 0.0;
   bool moved = false;
   bool asked = false;
+  int presses = 0;  ///< of start
 
  private:
-  [[nodiscard]] double distance() const {
-    return std::hypot(corners_[next_].x - x, corners_[next_].y - y);
-  }
-
-  void speak(bool repeat) {
-    // What is said refers to where the robot points when it is said: it has to be done by then.
-    if (time < speaking_until_ + 1.5) return;
-    if (next_ + 1 == corners_.size() && distance() < 1.0) {
-      return say("you have reached the goal");
-    }
-    double angle = yaw - std::atan2(corners_[next_].y - y, corners_[next_].x - x);
-    while (angle < 0.0) angle += 2.0 * kPi;
-    const int hour = static_cast<int>(std::lround(angle / (kPi / 6.0))) % 12;
-    const double patience = hour == 0 ? 8.0 : 4.0;
-    if (!repeat && hour == last_hour_ && time - said_ < patience) return;
-    last_hour_ = hour;
-    said_ = time;
-    const std::string meters = std::to_string(std::lround(distance())) + " meters";
-    say(hour == 0 ? "drive straight, " + meters
-                  : "turn to " + std::to_string(hour) + " o'clock, " + meters);
-  }
-
-  std::vector<Point> corners_;
-  std::size_t next_ = 0;
   std::uint32_t id_ = 0;
-  bool speaking_ = false;
-  double speaking_until_ = 0.0;
-  int last_hour_ = -1;
-  double said_ = -1e9;
+  bool pressed_ = false;
 };
 
-const std::vector<Point> kAroundACorner = {{8.0, 0.0}, {8.0, -6.0}, {2.0, -6.0}};
-
 TEST(SimulatedOperator, asks_before_it_moves_and_then_tries_where_nobody_speaks) {
-  Loop loop(1, kAroundACorner);
+  Loop loop;
   double asked = 0.0, moved = 0.0;
   for (int i = 0; i < 500; ++i) {
-    (void)loop.step();
+    loop.pass(1);
     if (loop.asked && asked == 0.0) asked = loop.time;
     if (loop.moved && moved == 0.0) moved = loop.time;
   }
@@ -136,43 +96,27 @@ TEST(SimulatedOperator, asks_before_it_moves_and_then_tries_where_nobody_speaks)
 }
 
 TEST(SimulatedOperator, does_not_try_where_somebody_has_spoken) {
-  Loop loop(1, kAroundACorner);
+  Loop loop;
   loop.say("welcome, waiting for a goal");
-  loop.person.hear(Speech{1, Moment::ends}, loop.time);
-  for (int i = 0; i < 500; ++i) (void)loop.step();
+  loop.pass(500);
   EXPECT_TRUE(loop.asked);
   EXPECT_FALSE(loop.moved);
 }
 
-TEST(SimulatedOperator, presses_start_when_it_is_told_to) {
-  SimulatedOperator person(steady(1), NAVVI_PHRASES, 1);
-  int presses = 0;
-  bool down = false;
-  for (int tick = 0; tick < 300; ++tick) {
-    const double time = 0.02 * tick;
-    if (tick == 100) person.hear(Speech{1, Moment::begins, "press start to begin"}, time);
-    if (tick == 150) person.hear(Speech{1, Moment::ends}, time);
-    const bool start = person.update(time, 0.02).start;
-    presses += start && !down ? 1 : 0;
-    down = start;
+TEST(SimulatedOperator, presses_start_once_where_words_ask_for_it_and_also_taps) {
+  for (const bool tapped : {false, true}) {
+    Loop loop;
+    loop.pass(100);
+    loop.begin("press start to begin");
+    loop.pass(25);
+    for (const double force : {0.5, 0.0, 0.5, 0.0}) {
+      if (tapped) loop.person.feel({force, force}, loop.time);
+      loop.pass(5);
+    }
+    if (!tapped) loop.end();
+    loop.pass(155);
+    EXPECT_EQ(loop.presses, 1) << tapped;
   }
-  EXPECT_EQ(presses, 1);
-}
-
-TEST(SimulatedOperator, presses_start_once_where_words_and_taps_ask_for_it) {
-  SimulatedOperator person(steady(1), NAVVI_PHRASES, 1);
-  int presses = 0;
-  bool down = false;
-  for (int tick = 0; tick < 300; ++tick) {
-    const double time = 0.02 * tick;
-    if (tick == 100) person.hear(Speech{1, Moment::begins, "press start to begin"}, time);
-    const bool tapped = (tick >= 125 && tick < 130) || (tick >= 135 && tick < 140);
-    person.feel(tapped ? Felt{0.5, 0.5} : Felt{}, time);
-    const bool start = person.update(time, 0.02).start;
-    presses += start && !down ? 1 : 0;
-    down = start;
-  }
-  EXPECT_EQ(presses, 1);
 }
 
 TEST(SimulatedOperator, misses_a_first_sentence_on_some_occasions_and_not_on_all) {
@@ -181,36 +125,24 @@ TEST(SimulatedOperator, misses_a_first_sentence_on_some_occasions_and_not_on_all
   config.hearing.missed_words = 0.5;
   int drives = 0;
   for (int occasion = 1; occasion <= 40; ++occasion) {
-    SimulatedOperator person(config, NAVVI_PHRASES, occasion);
-    bool moved = false;
-    for (int tick = 0; tick < 300; ++tick) {
-      const double time = 0.02 * tick;
-      if (tick == 100) person.hear(Speech{1, Moment::begins, "drive straight, 5 meters"}, time);
-      if (tick == 170) person.hear(Speech{1, Moment::ends}, time);
-      moved |= person.update(time, 0.02).forward > 0.0;
-    }
-    drives += moved ? 1 : 0;
+    Loop loop(config, occasion);
+    loop.pass(100);
+    loop.begin("drive straight, 5 meters");
+    loop.pass(70);
+    loop.end();
+    loop.pass(130);
+    drives += loop.moved ? 1 : 0;
   }
   EXPECT_GT(drives, 10);
   EXPECT_LT(drives, 30);
 }
 
-TEST(SimulatedOperator, reaches_a_goal_around_corners_by_ear) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Loop loop(seed, kAroundACorner);
-    EXPECT_TRUE(loop.lead(240.0)) << "seed " << seed << ": " << loop.x << ", " << loop.y;
-  }
-}
-
-/// A short sound: from the left, the right or, with both, from ahead.
-Heard sound(Earcon earcon, double left, double right) { return Sound{earcon, left, right}; }
-
 /// Turns to `angle`, rad, counter-clockwise, by ticks that end `early` s before it is reached.
 /// \return rad, turned too far
 double turned_by_ear(std::uint64_t seed, double angle, double early) {
-  Loop loop(seed, {{100.0, 0.0}});
-  loop.say("drive straight, 9 meters");
-  for (int i = 0; i < 200; ++i) loop.step();
+  Loop loop(seed);
+  loop.begin("drive straight, 9 meters");
+  loop.pass(200);
   bool over = false;
   bool told = false;
   double ticked = 0.0;
@@ -221,14 +153,13 @@ double turned_by_ear(std::uint64_t seed, double angle, double early) {
     const double rate = (loop.yaw - before) / kStep;
     before = loop.yaw;
     over = over || (off - rate * early) * angle < 0.0;
-    if (over && !told) loop.person.hear(sound(Earcon::turn_stop, 0.3, 0.3), loop.time);
+    if (over && !told) loop.sound(Earcon::turn_stop, 0.3, 0.3);
     told = over;
     if (!over && loop.time - ticked > 0.1 + 0.4 * std::min(1.0, std::abs(off) / 1.57)) {
       ticked = loop.time;
-      loop.person.hear(off > 0.0 ? sound(Earcon::turn, 0.6, 0.0) : sound(Earcon::turn, 0.0, 0.6),
-                       loop.time);
+      loop.sound(Earcon::turn, off > 0.0 ? 0.6 : 0.0, off > 0.0 ? 0.0 : 0.6);
     }
-    loop.step();
+    loop.pass(1);
   }
   return (loop.yaw - target) * (angle > 0.0 ? 1.0 : -1.0);
 }
@@ -247,93 +178,68 @@ TEST(SimulatedOperator, turns_by_what_sounds_and_too_far_where_that_ends_late) {
 }
 
 TEST(SimulatedOperator, does_not_turn_back_what_a_sound_led_while_it_was_told_to_go_on) {
-  Loop loop(1, {{100.0, 0.0}});
-  loop.say("drive straight, 9 meters");
-  for (int i = 0; i < 200; ++i) loop.step();
-  loop.say("go on, drive straight, 9 meters");
-  for (int i = 0; i < 40; ++i) {
-    if (i % 10 == 0) loop.person.hear(sound(Earcon::turn, 0.6, 0.0), loop.time);
-    loop.step();
+  Loop loop;
+  loop.begin("drive straight, 9 meters");
+  loop.pass(200);
+  loop.begin("go on, drive straight, 9 meters");
+  for (int i = 0; i < 4; ++i) {
+    loop.sound(Earcon::turn, 0.6, 0.0);
+    loop.pass(10);
   }
-  loop.person.hear(sound(Earcon::turn_stop, 0.3, 0.3), loop.time);
-  for (int i = 0; i < 30; ++i) loop.step();
+  loop.sound(Earcon::turn_stop, 0.3, 0.3);
+  loop.pass(30);
   const double turned = loop.yaw;
   EXPECT_GT(turned, 0.1);
-  loop.person.hear(Speech{2, Moment::ends}, loop.time);
-  for (int i = 0; i < 100; ++i) loop.step();
+  loop.end();
+  loop.pass(100);
   EXPECT_NEAR(loop.yaw, turned, 0.1);
 }
 
-TEST(SimulatedOperator, finds_a_goal_behind_its_back) {
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    Loop loop(seed, {{-5.0, 0.5}});
-    EXPECT_TRUE(loop.lead(120.0)) << "seed " << seed << ": " << loop.x << ", " << loop.y;
-  }
-}
-
-TEST(SimulatedOperator, does_the_same_again_with_the_same_seed) {
-  Loop first(5, kAroundACorner);
-  Loop second(5, kAroundACorner);
-  Loop other(6, kAroundACorner);
-  ASSERT_TRUE(first.lead(240.0));
-  ASSERT_TRUE(second.lead(240.0));
-  ASSERT_TRUE(other.lead(240.0));
-  EXPECT_EQ(first.time, second.time);
-  EXPECT_EQ(first.x, second.x);
-  EXPECT_NE(first.x, other.x);
-}
-
 TEST(SimulatedOperator, does_not_act_on_what_was_cut_off) {
-  Loop loop(1, kAroundACorner);
-  loop.say("drive straight, 8 meters");
-  (void)loop.step();
-  loop.person.hear(Speech{1, Moment::breaks_off}, loop.time);
-  for (int i = 0; i < 250; ++i) (void)loop.step();
+  Loop loop;
+  loop.begin("drive straight, 8 meters");
+  loop.pass(1);
+  loop.end(Moment::breaks_off);
+  loop.pass(250);
   EXPECT_FALSE(loop.moved);
 }
 
 TEST(SimulatedOperator, takes_time_to_react) {
-  Loop loop(1, kAroundACorner);
-  for (int i = 0; i < 100; ++i) (void)loop.step();
+  Loop loop;
+  loop.pass(100);
   loop.say("drive straight, 8 meters");
-  loop.person.hear(Speech{1, Moment::ends}, loop.time);
   const double heard = loop.time;
-  while (!loop.moved && loop.time < heard + 3.0) (void)loop.step();
+  while (!loop.moved && loop.time < heard + 3.0) loop.pass(1);
   EXPECT_GE(loop.time - heard, 0.3);
   EXPECT_LE(loop.time - heard, 1.3);
 }
 
 TEST(SimulatedOperator, backs_off_when_it_hears_that_it_hit_something) {
-  Loop loop(1, kAroundACorner);
-  for (int i = 0; i < 100; ++i) (void)loop.step();
+  Loop loop;
+  loop.pass(100);
   loop.say("hit a shelf ahead");
-  loop.person.hear(Speech{1, Moment::ends}, loop.time);
-  for (int i = 0; i < 150; ++i) (void)loop.step();
+  loop.pass(150);
   EXPECT_LT(loop.x, -0.1);
 }
 
 TEST(SimulatedOperator, lets_go_at_the_word_that_something_was_hit) {
-  Loop loop(1, kAroundACorner);
-  for (int i = 0; i < 100; ++i) (void)loop.step();
+  Loop loop;
+  loop.pass(100);
   loop.say("drive straight, 8 meters");
-  loop.person.hear(Speech{1, Moment::ends}, loop.time);
-  for (int i = 0; i < 150; ++i) (void)loop.step();
-  loop.say("hit a pallet robot on your right");
-  for (int i = 0; i < 45; ++i) (void)loop.step();
-  EXPECT_EQ(loop.step().forward, 0.0) << "the sentence is not over yet";
+  loop.pass(150);
+  loop.begin("hit a pallet robot on your right");
+  EXPECT_EQ(loop.pass(46).forward, 0.0) << "the sentence is not over yet";
 }
 
 TEST(SimulatedOperator, takes_one_o_clock_for_less_after_straight_ahead) {
   const auto turned_by = [](std::uint64_t seed, const char* first) {
-    Loop loop(seed, kAroundACorner);
-    for (int i = 0; i < 100; ++i) (void)loop.step();
+    Loop loop(seed);
+    loop.pass(100);
     loop.say(first);
-    loop.person.hear(Speech{1, Moment::ends}, loop.time);
-    for (int i = 0; i < 150; ++i) (void)loop.step();
+    loop.pass(150);
     const double before = loop.yaw;
     loop.say("turn to 1 o'clock, 8 meters");
-    loop.person.hear(Speech{2, Moment::ends}, loop.time);
-    for (int i = 0; i < 150; ++i) (void)loop.step();
+    loop.pass(150);
     return before - loop.yaw;
   };
   double after_turn = 0.0, after_straight = 0.0;
@@ -345,33 +251,28 @@ TEST(SimulatedOperator, takes_one_o_clock_for_less_after_straight_ahead) {
 }
 
 TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
-  Loop loop(1, kAroundACorner);
-  const auto say = [&](std::uint32_t id, const char* text) {
-    loop.say(text);
-    loop.person.hear(Speech{id, Moment::ends}, loop.time);
-  };
-  for (int i = 0; i < 100; ++i) (void)loop.step();
-  say(1, "drive straight, 8 meters");
-  for (int i = 0; i < 150; ++i) (void)loop.step();
-  say(2, "shelf ahead");
-  for (int i = 0; i < 60; ++i) (void)loop.step();
+  Loop loop;
+  loop.pass(100);
+  loop.say("drive straight, 8 meters");
+  loop.pass(150);
+  loop.say("shelf ahead");
+  loop.pass(60);
   const double stopped = loop.x;
-  for (int i = 0; i < 100; ++i) (void)loop.step();
+  loop.pass(100);
   EXPECT_EQ(loop.x, stopped);
   EXPECT_TRUE(loop.asked);
-  say(3, "drive straight, 6 meters");
-  for (int i = 0; i < 100; ++i) (void)loop.step();
+  loop.say("drive straight, 6 meters");
+  loop.pass(100);
   EXPECT_GT(loop.x, stopped);
 }
 
 TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
   const auto covered = [](double motors) {
-    Loop loop(1, kAroundACorner);
-    for (int i = 0; i < 100; ++i) (void)loop.step();
+    Loop loop;
+    loop.pass(100);
     loop.person.feel({motors, motors}, loop.time);
     loop.say("drive straight, 20 meters");
-    loop.person.hear(Speech{1, Moment::ends}, loop.time);
-    for (int i = 0; i < 200; ++i) (void)loop.step();
+    loop.pass(200);
     return loop.x;
   };
   EXPECT_LT(covered(0.9), 0.75 * covered(0.0));
