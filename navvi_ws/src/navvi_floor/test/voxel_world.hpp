@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "octomap_tree.hpp"
@@ -44,6 +46,16 @@ class SmallWorld {
     return tree_;
   }
   [[nodiscard]] Voxels voxels() { return voxels_of(tree()); }
+  /// As it is sent. \param binary  or with a value a node
+  [[nodiscard]] std::vector<std::int8_t> bytes(bool binary = true) {
+    std::ostringstream out;
+    if (octomap::OcTree sent = tree(); binary)
+      sent.writeBinaryData(out);
+    else
+      sent.writeData(out);
+    const std::string text = out.str();
+    return {text.begin(), text.end()};
+  }
   using Block = std::array<double, 4>;  ///< x0, y0, x1, y1
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 

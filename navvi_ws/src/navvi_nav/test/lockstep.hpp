@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
-
 #include "guide/navigator.hpp"
 #include "small_world.hpp"
 
@@ -12,15 +10,8 @@ namespace navvi_nav::guide {
 inline constexpr double kTick = 0.05;  // s
 
 inline std::shared_ptr<const plan::MapMessage> message_of(SmallWorld& world) {
-  std::ostringstream out;
-  octomap::OcTree tree = world.tree();
-  tree.writeBinaryData(out);
-  const std::string text = out.str();
-  plan::MapMessage message;
-  message.data.assign(text.begin(), text.end());
-  message.id = "OcTree";
-  message.resolution = tree.getResolution();
-  return std::make_shared<const plan::MapMessage>(message);
+  return std::make_shared<const plan::MapMessage>(
+      plan::MapMessage{world.bytes(), true, "OcTree", world.tree().getResolution()});
 }
 
 /// Tests tell things apart by their class: nine ids in a row have eight classes.
@@ -60,7 +51,8 @@ class Lockstep : public testing::Test {
     for (int i = 0; i < times; ++i) {
       time_ += kTick;
       if (has_pose_)
-        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_, time_);
+        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_,
+                            time_);
       navigator_.set_velocity({speed_, 0.0});
       if (has_obstacles_) {
         std::vector<MovingThing> things = things_;
@@ -80,6 +72,16 @@ class Lockstep : public testing::Test {
     const double length = std::min(step, now.waypoint_distance);
     robot_.position = robot_.position + length * Point{std::cos(robot_.yaw), std::sin(robot_.yaw)};
     tick();
+  }
+  /// One tick of a person who follows at `pace`, m/s, and stands while told to wait.
+  void follow(double pace) {
+    const Guidance::State state = status().state;
+    const bool drives = state == Guidance::State::following || state == Guidance::State::make_room;
+    speed_ = drives ? pace : 0.0;
+    if (drives)
+      drive(pace * kTick);
+    else
+      tick();
   }
   [[nodiscard]] Guidance status() const { return navigator_.guidance(time_); }
 

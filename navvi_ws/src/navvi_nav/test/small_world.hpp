@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <random>
 #include <vector>
 
@@ -9,6 +11,35 @@
 namespace navvi_nav {
 
 using navvi_floor::SmallWorld;
+
+inline plan::NavMesh mesh_of(SmallWorld& world, const plan::NavMeshConfig& config = {}) {
+  plan::NavMesh mesh(config);
+  EXPECT_EQ(mesh.set_map(world.voxels()).error, "");
+  return mesh;
+}
+
+/// Number by number.
+inline bool same(const mesh::Mesh& a, const mesh::Mesh& b) {
+  if (a.vertices.size() != b.vertices.size() || a.polygons.size() != b.polygons.size())
+    return false;
+  for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+    if (!(a.vertices[i].at == b.vertices[i].at) || a.vertices[i].corner != b.vertices[i].corner)
+      return false;
+  }
+  for (std::size_t i = 0; i < a.polygons.size(); ++i) {
+    const mesh::Polygon& p = a.polygons[i];
+    const mesh::Polygon& q = b.polygons[i];
+    if (p.corners != q.corners || p.component != q.component ||
+        p.portals.size() != q.portals.size())
+      return false;
+    for (std::size_t k = 0; k < p.portals.size(); ++k) {
+      if (p.portals[k].to != q.portals[k].to || p.portals[k].right != q.portals[k].right ||
+          p.portals[k].left != q.portals[k].left)
+        return false;
+    }
+  }
+  return true;
+}
 
 /// m, from a point to a block's outline; 0 inside
 inline double distance_to(const SmallWorld::Block& block, Point p) {

@@ -42,11 +42,13 @@ struct Drive {
   double fastest = 0.0;     ///< m/s, over what was wanted
 };
 
-/// Drives for a time, with what is near at 20 Hz.
+/// Drives for a time, with what is near at 20 Hz. \param yaw  rad, at the start
 Drive drive(const char* mode, const Velocity& wanted, double seconds,
-            const std::function<std::vector<NearThing>(const Pose2&, double)>& near) {
+            const std::function<std::vector<NearThing>(const Pose2&, double)>& near,
+            double yaw = 0.0) {
   Assistance assistance(mode);
   Drive result;
+  result.robot.yaw = yaw;
   for (int i = 0; i * kStep < seconds; ++i) {
     const double time = i * kStep;
     const auto things = near(result.robot, time);
@@ -113,21 +115,9 @@ TEST(Assistance, leads_a_robot_that_nears_a_wall_along_it) {
   const auto wall = [](const Pose2& robot, double) {
     return std::vector<NearThing>{wall_at(-0.8, robot)};
   };
-  Pose2 robot;
-  Assistance assistance("steer");
-  double least = 10.0;
-  robot.yaw = -0.4;
-  for (int i = 0; i < 600; ++i) {
-    const auto things = wall(robot, 0.0);
-    least = std::min(least, things[0].gap);
-    if (i % 5 == 0) assistance.see(things, i * kStep);
-    const Velocity driven = assistance.assist({0.9, 0.0}, i * kStep);
-    robot.position +=
-        driven.linear * kStep * Eigen::Vector2d(std::cos(robot.yaw), std::sin(robot.yaw));
-    robot.yaw += driven.angular * kStep;
-  }
-  EXPECT_GT(least, 0.0);
-  EXPECT_GT(robot.position.x(), 4.0) << "it goes on";
+  const Drive along = drive("steer", {0.9, 0.0}, 6.0, wall, -0.4);
+  EXPECT_GT(along.least_gap, 0.0);
+  EXPECT_GT(along.robot.position.x(), 4.0) << "it goes on";
 }
 
 TEST(Assistance, leaves_a_person_who_drives_along_a_wall_or_away_alone) {

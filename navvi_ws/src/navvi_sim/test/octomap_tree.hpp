@@ -5,17 +5,13 @@
 #include <sstream>
 #include <string>
 
-#include "navvi_sim/occupancy/occupancy_map.hpp"
+#include "occupancy/octree.hpp"
 
 namespace navvi_sim {
 
 /// The map as octomap reads it.
 inline octomap::OcTree tree_of(const occupancy::OccupancyMap& map) {
-  octomap::OcTree tree(map.resolution());
-  if (map.stream().empty()) return tree;
-  std::istringstream stream(std::string(map.stream().begin(), map.stream().end()));
-  tree.readBinaryData(stream);
-  return tree;
+  return *occupancy::octree_of(map);
 }
 
 /// What octomap writes of a tree.

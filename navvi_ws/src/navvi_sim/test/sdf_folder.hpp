@@ -50,6 +50,33 @@ inline std::string sentence_of(const std::string& spec, const std::string& model
   return "";
 }
 
+inline std::string repeated(const std::string& text, int count) {
+  std::string result;
+  for (int i = 0; i < count; ++i) result += text;
+  return result;
+}
+
+/// With `to` for the first `from`.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// Collada with one triangle, geometry g.
+inline std::string collada(const std::string& library, const std::string& scene) {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+         "version='1.4.1'><asset><unit meter='1'/><up_axis>Z_UP</up_axis></asset>"
+         "<library_geometries><geometry id='g'><mesh><source id='p'><float_array id='a' count='9'>"
+         "0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source='#a' count='3' "
+         "stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param name='Z' "
+         "type='float'/></accessor></technique_common></source><vertices id='v'><input "
+         "semantic='POSITION' source='#p'/></vertices><triangles count='1'><input offset='0' "
+         "semantic='VERTEX' source='#v'/><p>0 1 2</p></triangles></mesh></geometry>"
+         "</library_geometries>" +
+         library + "<library_visual_scenes><visual_scene id='s'>" + scene +
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
+         "</COLLADA>";
+}
+
 /// A folder for the worlds of one test, gone afterwards.
 class SdfFolder : public testing::Test {
  protected:
@@ -81,6 +108,11 @@ class SdfFolder : public testing::Test {
     return "<model name='" + name + "'><pose>" + pose +
            "</pose><link name='l'><collision name='c'><geometry>" + geometry +
            "</geometry></collision></link></model>";
+  }
+  /// \param size, at  m
+  [[nodiscard]] static std::string box(const std::string& name, const std::string& size,
+                                       const std::string& at = "0 0 0") {
+    return model(name, "<box><size>" + size + "</size></box>", at + " 0 0 0");
   }
 
   const std::string ground_ =

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "door.hpp"
 #include "small_world.hpp"
 
 namespace navvi_nav::bake {
@@ -112,13 +113,6 @@ TEST(MapBake, keeps_the_margin_from_every_voxel_and_loses_less_than_a_cell) {
     EXPECT_GT(roomy, 500);
     EXPECT_GE(inside, roomy);
   }
-}
-
-mesh::Mesh mesh_of(const BakedMap& map) {
-  std::vector<mesh::GridPolygon> all;
-  for (const auto& [tile, polygons] : map.tiles)
-    all.insert(all.end(), polygons.begin(), polygons.end());
-  return mesh::join(all, map.floor->cell_size() / map::kStepsPerCellSide);
 }
 
 /// By the same floor in cells of an eighth, eroded by 1.5 cm more.
@@ -326,10 +320,7 @@ TEST(MapBake, takes_back_a_long_deck_whose_ramp_a_box_closes) {
   map::SurveyConfig how;
   how.climb = 0.1;
   const auto survey_of = [&](const BakedMap& last) {
-    std::ostringstream out;
-    octomap::OcTree(world.tree()).writeBinaryData(out);
-    const std::string text = out.str();
-    const std::vector<std::int8_t> data(text.begin(), text.end());
+    const std::vector<std::int8_t> data = world.bytes();
     const map::MapBytes bytes{data.data(), data.size(), true, "OcTree", 0.1};
     map::MapSurvey survey = map::survey_map(bytes, how, last.record.get(), last.floor.get());
     EXPECT_TRUE(survey.ground == map::survey_map(map::read_voxels(bytes), how).ground);

@@ -73,10 +73,7 @@ TEST_F(Following, waits_on_while_the_path_from_the_retreat_is_closed) {
 }
 
 TEST_F(Following, arrives_at_the_goal_and_not_at_the_end_of_a_retreat) {
-  SmallWorld world;
-  world.room(16, 10);
-  plan::NavMesh mesh(plan::NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  plan::NavMesh mesh = mesh_of(SmallWorld().room(16, 10));
   robot_ = {13.5, 5};
   for (const plan::PlanStatus status :
        {plan::PlanStatus::found, plan::PlanStatus::closed, plan::PlanStatus::retreat}) {

@@ -21,9 +21,7 @@ class MovingThings : public Lockstep {
       world_.box(x, 9.5, 0, x + 7.5, 12.5, 1.5);
     }
     robot_.position = {1.5, 8};
-    load();
-    navigator_.set_goal({22.5, 8});
-    tick(2);
+    lead({22.5, 8});
     EXPECT_NEAR(length_of(navigator_.path()), 21.0, 0.1);
   }
 
@@ -47,13 +45,8 @@ class MovingThings : public Lockstep {
       elapsed += kTick;
       obstacles_ = {thing(elapsed)};
       const Guidance now = status();
-      const bool drives = now.state == Guidance::State::following;
-      speed_ = drives ? kPace : 0.0;
       const double x = robot_.position.x;
-      if (drives)
-        drive(kPace * kTick);
-      else
-        tick();
+      follow(kPace);
       out.backwards += std::max(0.0, x - robot_.position.x);
       out.waited += now.state == Guidance::State::blocked ? kTick : 0.0;
       out.lost += now.state == Guidance::State::no_route ? kTick : 0.0;
@@ -181,9 +174,7 @@ class OpenHall : public Lockstep {
  protected:
   OpenHall() : Lockstep(30, 16) {
     robot_.position = {1.5, 8};
-    load();
-    navigator_.set_goal({28, 8});
-    tick(2);
+    lead({28, 8});
     path_ = navigator_.path();
   }
   struct Drive {
@@ -196,14 +187,8 @@ class OpenHall : public Lockstep {
     Drive out;
     for (double elapsed = 0.0; elapsed < seconds; elapsed += kTick) {
       things_ = {forklift_at(elapsed)};
-      const Guidance now = status();
-      const bool drives = now.state == Guidance::State::following;
-      out.waited += now.state == Guidance::State::blocked ? kTick : 0.0;
-      speed_ = drives ? kPace : 0.0;
-      if (drives)
-        drive(kPace * kTick);
-      else
-        tick();
+      out.waited += status().state == Guidance::State::blocked ? kTick : 0.0;
+      follow(kPace);
       out.changed = out.changed || !(navigator_.path() == path_);
       const MovingThing& one = things_[0];
       const Point away = robot_.position - to_point(one.pose.position);
@@ -270,13 +255,8 @@ TEST_F(OpenHall, nobody_is_told_to_wait_for_what_comes_from_behind_but_led_out_o
     double waited = 0.0;
     for (double elapsed = 0.0; elapsed < 12.0; elapsed += kTick) {
       obstacles_ = {{3, {10 - 1.25 - behind + 1.5 * elapsed, 8}, 0.9, {1.5, 0}}};
-      const bool waits = status().state == Guidance::State::blocked;
-      waited += waits ? kTick : 0.0;
-      speed_ = waits ? 0.0 : kPace;
-      if (waits)
-        tick();
-      else
-        drive(kPace * kTick);
+      waited += status().state == Guidance::State::blocked ? kTick : 0.0;
+      follow(kPace);
       least = std::min(least, distance(robot_.position, obstacles_[0].center) - 0.9 - 0.35);
     }
     EXPECT_GT(least, 0.1) << behind;
@@ -308,12 +288,7 @@ TEST_F(ClosedCorridor, what_crosses_is_waited_for_though_the_way_is_closed_farth
     for (double elapsed = 0.0; elapsed < 25.0; elapsed += kTick) {
       obstacles_ = {{1, {24, 8}, 1.4, {}},
                     {2, {13.5, 14.5 - 1.5 * (elapsed - delay)}, 0.8, {0, -1.5}}};
-      const bool drives = status().state == Guidance::State::following;
-      speed_ = drives ? kPace : 0.0;
-      if (drives)
-        drive(kPace * kTick);
-      else
-        tick();
+      follow(kPace);
       least = std::min(least, distance(robot_.position, obstacles_[1].center) - 0.8 - 0.35);
     }
     EXPECT_GT(least, 0.2) << delay;
@@ -327,9 +302,7 @@ class NarrowAisle : public Lockstep {
   NarrowAisle() : Lockstep(22, 8) {
     world_.box(5, 0.1, 0, 17, 2.8, 1.5).box(5, 5.2, 0, 17, 7.9, 1.5);
     robot_.position = {9, 4};
-    load();
-    navigator_.set_goal({20, 4});
-    tick(2);
+    lead({20, 4});
   }
 };
 
@@ -353,14 +326,7 @@ TEST_F(NarrowAisle, a_forklift_that_waits_for_the_robot_is_made_room_for_and_pas
     if (clear && x > -30.0) x -= 0.6 * kTick;
     things_ = {forklift({x, 4.0}, kPi, clear ? 0.6 : 0.0)};
     if (x < 3.0) things_.clear();
-    const bool drives =
-        now.state == Guidance::State::following || now.state == Guidance::State::make_room;
-    speed_ = drives ? kPace : 0.0;
-    if (drives) {
-      drive(kPace * kTick);
-    } else {
-      tick();
-    }
+    follow(kPace);
   }
   EXPECT_EQ(status().state, Guidance::State::arrived);
   EXPECT_TRUE(named);
@@ -384,13 +350,7 @@ TEST_F(NarrowAisle, what_crosses_is_waited_for_on_the_way_aside_too) {
       least = std::min(least, distance(robot_.position, {4.2, y}) - 0.6 - 0.35);
       waited = waited || (now.state == Guidance::State::blocked && now.blocked_by == class_of(2));
     }
-    const bool drives =
-        now.state == Guidance::State::following || now.state == Guidance::State::make_room;
-    speed_ = drives ? kPace : 0.0;
-    if (drives)
-      drive(kPace * kTick);
-    else
-      tick();
+    follow(kPace);
   }
   EXPECT_TRUE(waited);
   EXPECT_GT(least, 0.2);

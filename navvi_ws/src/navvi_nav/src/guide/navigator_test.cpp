@@ -15,9 +15,8 @@ TEST_F(Lockstep, says_no_map_before_one_came) {
 
 TEST_F(Lockstep, says_pose_stale_without_a_pose_and_recovers) {
   has_pose_ = false;
-  load();
-  navigator_.set_goal({14, 5});
-  tick(3);
+  lead({14, 5});
+  tick();
   EXPECT_EQ(status().state, Guidance::State::pose_stale);
   has_pose_ = true;
   tick(2);
@@ -82,9 +81,8 @@ TEST_F(Lockstep, N6_says_at_once_that_obstacles_are_rejected) {
 TEST_F(Lockstep, says_while_no_fresh_obstacles_come) {
   const std::string said = "no fresh obstacles: moving things are not in the path";
   has_obstacles_ = false;
-  load();
-  navigator_.set_goal({14, 5});
-  tick(40);
+  lead({14, 5});
+  tick(38);
   EXPECT_EQ(status().detail, said);
   EXPECT_FALSE(navigator_.obstacles_lost());  // none came yet, so none are lost
   has_obstacles_ = true;
@@ -157,9 +155,8 @@ TEST_F(Lockstep, never_steers_through_what_stands_after_a_localizer_corrected_th
 }
 
 TEST_F(Lockstep, plans_around_an_obstacle_that_cuts_the_path) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(12);
+  lead({14, 5});
+  tick(10);
   const Path before = navigator_.path();
   const Point middle = 0.5 * (before[1] + before[2]);
   obstacles_ = {{1, middle, 0.4, {}}};
@@ -199,15 +196,13 @@ TEST_F(Lockstep, tells_the_age_of_map_and_mesh) {
 }
 
 TEST_F(Lockstep, calls_the_map_stale_only_if_maps_may_age_and_recovers) {
-  load();
-  navigator_.set_goal({14, 5});
-  tick(100);
+  lead({14, 5});
+  tick(98);
   EXPECT_EQ(status().state, Guidance::State::following);
   config_.map_timeout = 3.0;
   navigator_ = Navigator(config_);
-  load();
-  navigator_.set_goal({14, 5});
-  tick(40);
+  lead({14, 5});
+  tick(38);
   EXPECT_EQ(status().state, Guidance::State::following);
   tick(40);
   EXPECT_EQ(status().state, Guidance::State::map_stale);
@@ -292,28 +287,6 @@ TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
   robot_.position = {7.5, 5};  // within the box
   tick(100);
   EXPECT_EQ(status().state, Guidance::State::off_mesh);
-}
-
-TEST_F(Lockstep, keeps_the_path_while_only_something_far_ahead_closes_it) {
-  config_.replan.forecast.look_ahead = 2.0;
-  navigator_ = Navigator(config_);
-  lead({14, 5});
-  obstacles_ = {{1, {7.5, 1.5}, 1.4, {}}, {2, {7.5, 8.5}, 1.4, {}}};
-  tick(100);
-  EXPECT_EQ(status().state, Guidance::State::following);
-  robot_.position = navigator_.path()[1];
-  tick(100);
-  EXPECT_EQ(status().state, Guidance::State::blocked);
-}
-
-TEST_F(Lockstep, plans_again_when_the_map_changed) {
-  lead({14, 5});
-  world_.box(6, 7, 0, 9, 10, 1.0);
-  navigator_.set_map(message_of(world_));
-  tick(2);
-  EXPECT_EQ(status().replan_reason, Guidance::Replan::map_changed);
-  EXPECT_EQ(status().state, Guidance::State::following);
-  for (const Point point : navigator_.path()) EXPECT_LT(point.y, 6.0);
 }
 
 TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
@@ -430,53 +403,6 @@ class Guided : public Lockstep {
   const Path straight_{{2, 5}, {14, 5}};
 };
 
-TEST_F(Guided, stays_with_a_path_that_serves_and_leaves_it_for_one_that_is_much_shorter) {
-  const Path round{{2, 5}, {2, 1}, {14, 1}, {14, 5}};
-  finds(plan::PlanStatus::found, round, 0.1);
-  finds(plan::PlanStatus::found, {{2, 5}, {2, 1.5}, {14, 1.5}, {14, 5}}, 5.0);
-  EXPECT_GT(status().plans, 2U);
-  EXPECT_EQ(navigator_.path(), round);
-  EXPECT_EQ(status().reroutes, 0U);
-  finds(plan::PlanStatus::found, straight_, 2.5);
-  EXPECT_EQ(navigator_.path(), straight_);
-  EXPECT_EQ(status().reroutes, 1U);
-}
-
-TEST_F(Guided, stays_with_a_path_that_was_closed_once_it_is_free_again) {
-  put_before(8.0);
-  finds(plan::PlanStatus::closed, straight_, 0.2);
-  things_.clear();
-  finds(plan::PlanStatus::found, {{2, 5}, {8, 6}, {14, 5}}, 5.0);
-  EXPECT_EQ(navigator_.path(), straight_);
-  EXPECT_EQ(status().state, Guidance::State::following);
-  put_before(8.0);  // it is one that leads to the goal, and is left like any other
-  finds(plan::PlanStatus::found, {{2, 5}, {8, 2}, {14, 5}}, 10.0);
-  EXPECT_EQ(navigator_.path().size(), 3U);
-}
-
-TEST_F(Guided, leaves_a_path_that_serves_for_a_new_goal_or_from_far_off_it) {
-  finds(plan::PlanStatus::found, straight_, 0.1);
-  const Path other{{2, 5}, {13, 4}};
-  navigator_.set_goal({13, 4});
-  finds(plan::PlanStatus::found, other, 0.1);
-  EXPECT_EQ(navigator_.path(), other);
-  robot_.position = {4, 7};
-  const Path back{{4, 7}, {13, 4}};
-  finds(plan::PlanStatus::found, back, 2.5);
-  EXPECT_EQ(navigator_.path(), back);
-}
-
-TEST_F(Guided, names_what_closes_the_only_path_once_it_is_near) {
-  put_before(8.0);
-  finds(plan::PlanStatus::closed, straight_, 0.2);
-  EXPECT_EQ(status().state, Guidance::State::following);
-  robot_.position = {5.5, 5};
-  finds(plan::PlanStatus::closed, straight_, 0.2);
-  ASSERT_EQ(status().state, Guidance::State::blocked);
-  EXPECT_EQ(status().blocked_by, class_of(7));
-  EXPECT_TRUE(swept_area_.empty());
-}
-
 TEST_F(Guided, retreats_from_what_it_faces_waits_there_and_arrives_nowhere) {
   const Path path{{2, 5}, {2, 7}};
   retreat(path);
@@ -499,17 +425,6 @@ TEST_F(Guided, retreats_from_what_it_faces_waits_there_and_arrives_nowhere) {
   robot_.position = {13.5, 5};
   finds(plan::PlanStatus::found, {{13.5, 5}, {14, 5}}, 0.1);
   EXPECT_EQ(status().state, Guidance::State::arrived);
-}
-
-TEST_F(Guided, has_retreated_only_where_it_leaves_the_area_free) {
-  const Path path{{2, 5}, {2, 6.0}};
-  retreat(path);
-  robot_.position = {2, 5.7};  // the thing needs 0.5 m to the side, the robot 0.35 m
-  finds(plan::PlanStatus::retreat, path, 1.0);
-  EXPECT_EQ(status().state, Guidance::State::make_room);
-  robot_.position = {2, 5.9};
-  finds(plan::PlanStatus::retreat, path, 0.1);
-  EXPECT_EQ(status().state, Guidance::State::blocked);
 }
 
 TEST_F(Guided, leaves_the_end_of_a_retreat_where_something_hits_it) {
@@ -566,10 +481,7 @@ TEST(PathFollower, tells_the_next_turn_beyond_bends_and_close_corners_as_one) {
 }
 
 TEST(PathFollower, steers_to_the_path_ahead_so_that_a_drift_shows_early) {
-  SmallWorld world;
-  world.room(24, 12);
-  plan::NavMesh mesh(plan::NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  plan::NavMesh mesh = mesh_of(SmallWorld().room(24, 12));
   PathFollower follower{PathFollowerConfig{}};
   follower.follow({{2, 2}, {22, 2}, {22, 7}});
   Guidance heading;
@@ -585,10 +497,8 @@ TEST(PathFollower, steers_to_the_path_ahead_so_that_a_drift_shows_early) {
 }
 
 TEST(PathFollower, steers_clear_of_a_corner_beside_the_path) {
-  SmallWorld world;
-  world.room(12, 6).box(4, 2.5, 0, 12, 6, 1.0);  // its corner juts out to the left of the path
-  plan::NavMesh mesh(plan::NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  // its corner juts out to the left of the path
+  plan::NavMesh mesh = mesh_of(SmallWorld().room(12, 6).box(4, 2.5, 0, 12, 6, 1.0));
   PathFollower follower{PathFollowerConfig{}};
   follower.follow({{1, 1.8}, {11, 1.8}});
   const Point robot{3.6, 2.3};  // it drifted to the left, and is about to hit that corner
@@ -600,10 +510,7 @@ TEST(PathFollower, steers_clear_of_a_corner_beside_the_path) {
 }
 
 TEST(PathFollower, keeps_a_corner_that_would_be_cut_through_a_shelf) {
-  SmallWorld world;
-  world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);
-  plan::NavMesh mesh(plan::NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  plan::NavMesh mesh = mesh_of(SmallWorld().room(8, 8).box(2, 2, 0, 4, 6, 1.0));
   PathFollower follower{PathFollowerConfig{}};
   follower.follow({{1.2, 1.0}, {1.2, 6.6}, {4.6, 6.6}, {4.6, 1.0}});
   follower.advance({1.2, 5.7}, mesh.space());
@@ -613,10 +520,7 @@ TEST(PathFollower, keeps_a_corner_that_would_be_cut_through_a_shelf) {
 }
 
 TEST(PathFollower, passes_a_corner_whose_next_leg_has_no_more_room_than_the_robot_needs) {
-  SmallWorld world;
-  world.room(8, 8).box(2, 2, 0, 4, 6, 1.0);
-  plan::NavMesh mesh(plan::NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  plan::NavMesh mesh = mesh_of(SmallWorld().room(8, 8).box(2, 2, 0, 4, 6, 1.0));
   PathFollower follower{PathFollowerConfig{}};
   follower.follow({{1.0, 1.0}, {1.0, 6.36}, {4.4, 6.36}, {4.4, 1.0}});
   follower.advance({1.1, 6.4}, mesh.space());
@@ -624,10 +528,7 @@ TEST(PathFollower, passes_a_corner_whose_next_leg_has_no_more_room_than_the_robo
 }
 
 TEST(PathFollower, passes_a_corner_though_something_moving_stands_in_the_next_leg) {
-  SmallWorld world;
-  world.room(8, 8);
-  plan::NavMesh mesh(plan::NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  plan::NavMesh mesh = mesh_of(SmallWorld().room(8, 8));
   mesh.carve({{1, {4, 6}, 0.5, {}}});
   PathFollower follower{PathFollowerConfig{}};
   follower.follow({{1, 1}, {1, 6}, {7, 6}});
@@ -638,10 +539,7 @@ TEST(PathFollower, passes_a_corner_though_something_moving_stands_in_the_next_le
 }
 
 TEST(PathFollower, does_not_arrive_through_a_wall) {
-  SmallWorld world;
-  world.room(8, 8).box(4, 0, 0, 4.05, 6, 1.0);
-  plan::NavMesh mesh(plan::NavMeshConfig{});
-  ASSERT_EQ(mesh.set_map(world.voxels()).error, "");
+  plan::NavMesh mesh = mesh_of(SmallWorld().room(8, 8).box(4, 0, 0, 4.05, 6, 1.0));
   PathFollower follower{PathFollowerConfig{}};
   follower.follow({{3.58, 2}, {4, 7}, {4.47, 2}});
   EXPECT_FALSE(follower.arrived({3.58, 2}, mesh.space()));

@@ -176,22 +176,5 @@ TEST_F(Toward, a_way_that_something_closes_is_not_the_end_of_the_map) {
   EXPECT_NEAR(navigator_.path().back().x, 7.6, 0.1);
 }
 
-TEST_F(Toward, is_not_led_at_all_where_no_way_leads_nearer) {
-  robot_.position = {7.2, 3};
-  for (int asked = 0; asked < 3; ++asked) {
-    choose({20, 3});
-    EXPECT_EQ(status().state, Guidance::State::goal_refused);
-    EXPECT_EQ(status().refusal, Guidance::Refusal::off_the_map);
-  }
-}
-
-TEST_F(Toward, a_goal_that_the_map_shows_is_led_to_as_ever) {
-  choose({7, 3});
-  choose({7, 3});
-  EXPECT_EQ(status().state, Guidance::State::following);
-  EXPECT_FALSE(status().ends_short);
-  EXPECT_EQ(navigator_.path().back(), (Point{7, 3}));
-}
-
 }  // namespace
 }  // namespace navvi_nav::guide

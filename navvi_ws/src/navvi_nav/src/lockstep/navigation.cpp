@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "guide/cylinders.hpp"
 #include "guide/navigator.hpp"
 #include "guide/publish_throttle.hpp"
 #include "plan/planner.hpp"
@@ -74,9 +75,7 @@ bool Navigation::has_map() const { return parts_->navigator.has_map(); }
 const std::string& Navigation::map_error() const { return parts_->map_error; }
 
 std::vector<Eigen::Vector2d> Navigation::path() const {
-  std::vector<Eigen::Vector2d> out;
-  for (const Point point : parts_->navigator.path()) out.emplace_back(point.x, point.y);
-  return out;
+  return guide::to_vectors(parts_->navigator.path());
 }
 
 std::optional<navvi_types::ZoneState> Navigation::zone(double time) const {

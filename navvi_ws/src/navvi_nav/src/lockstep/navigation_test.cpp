@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <navvi_config/reader.hpp>
-#include <sstream>
 
 #include "small_world.hpp"
 
@@ -15,15 +14,7 @@ using navvi_types::Guidance;
 /// A room of 8 x 6 m, a robot at its left end, and a goal at its right.
 class InARoom : public testing::Test {
  protected:
-  InARoom() {
-    SmallWorld world;
-    world.room(8, 6);
-    octomap::OcTree tree = world.tree();
-    std::ostringstream out;
-    tree.writeBinaryData(out);
-    const std::string text = out.str();
-    navigation_.set_map({text.begin(), text.end()}, "OcTree", tree.getResolution());
-  }
+  InARoom() { navigation_.set_map(SmallWorld().room(8, 6).bytes(), "OcTree", 0.05); }
   /// One beat. \returns the state that is published, if any
   std::optional<Guidance::State> beat() {
     time_ += 0.05;

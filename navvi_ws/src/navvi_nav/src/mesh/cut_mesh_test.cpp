@@ -8,7 +8,7 @@
 
 #include "allocations.hpp"
 #include "plan/carving.hpp"
-#include "search/search.hpp"
+#include "small_world.hpp"
 
 namespace navvi_nav::mesh {
 namespace {
@@ -64,28 +64,6 @@ Disc random_disc(std::mt19937& random) {
   if (grid > 0.0)
     out.center = {grid * std::round(out.center.x / grid), grid * std::round(out.center.y / grid)};
   return out;
-}
-
-bool same(const Mesh& a, const Mesh& b) {
-  if (a.vertices.size() != b.vertices.size() || a.polygons.size() != b.polygons.size())
-    return false;
-  for (std::size_t i = 0; i < a.vertices.size(); ++i) {
-    if (!(a.vertices[i].at == b.vertices[i].at) || a.vertices[i].corner != b.vertices[i].corner)
-      return false;
-  }
-  for (std::size_t i = 0; i < a.polygons.size(); ++i) {
-    const Polygon& p = a.polygons[i];
-    const Polygon& q = b.polygons[i];
-    if (p.corners != q.corners || p.component != q.component ||
-        p.portals.size() != q.portals.size())
-      return false;
-    for (std::size_t k = 0; k < p.portals.size(); ++k) {
-      if (p.portals[k].to != q.portals[k].to || p.portals[k].right != q.portals[k].right ||
-          p.portals[k].left != q.portals[k].left)
-        return false;
-    }
-  }
-  return true;
 }
 
 using Shape = std::vector<std::pair<double, double>>;
@@ -404,35 +382,6 @@ TEST(CutMesh, allocates_nothing_where_holes_were_before) {
   EXPECT_EQ(allocations(), before);
   carving.carve(mesh, {{99, {8, 8}, 5.0, {}}});
   EXPECT_GT(allocations(), before);  // they are counted
-}
-
-TEST(CutMesh, makes_no_path_shorter_by_another_hole) {
-  int longer = 0, lost = 0;
-  for (unsigned seed = 0; seed < 200; ++seed) {
-    std::mt19937 random(seed);
-    CutMesh mesh(random_floor(random), kUnit);
-    search::Search search(search::SearchMethod::exact);
-    std::uniform_real_distribution<double> draw(0.0, 16.0);
-    const Point start{draw(random), draw(random)};
-    const Point goal{draw(random), draw(random)};
-    double before = 0.0;
-    for (int k = 0; k < 40; ++k) {
-      const auto from = mesh.mesh().locate(start, 1e-9);
-      const auto to = mesh.mesh().locate(goal, 1e-9);
-      if (!from || !to) break;
-      const search::Found& found = search.find(mesh.mesh(), *from, *to);
-      lost += !found.found && before > 0.0 ? 1 : 0;
-      if (!found.found) break;
-      ASSERT_GE(found.length, before - 1e-9) << seed;
-      longer += k > 0 && found.length > before + 1e-3 ? 1 : 0;
-      before = found.length;
-      const Disc disc = random_disc(random);
-      mesh.add(disc.center, disc.radius, kSides);
-      mesh.update();
-    }
-  }
-  EXPECT_GT(longer, 50);
-  EXPECT_GT(lost, 0);
 }
 
 TEST(CutMesh, stands_a_crowd_in_one_place_and_heals) {

@@ -255,36 +255,5 @@ TEST(Cutter, is_right_about_holes_that_share_lines_and_corners) {
   }
 }
 
-TEST(Cutter, cuts_anything_out_of_anything) {
-  for (unsigned seed = 0; seed < 400; ++seed) {
-    std::mt19937 random(seed);
-    const auto draw = [&random](int low, int high) {
-      return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
-    };
-    // A convex polygon about the origin, corners on whole cells.
-    std::vector<LatticePoint> corners;
-    const int count = draw(3, 7);
-    for (int k = 0; k < count; ++k) {
-      const double angle = 2 * kPi * k / count;
-      corners.push_back({kCell * std::llround(90 * std::cos(angle)) + kCell * draw(-3, 3),
-                         kCell * std::llround(90 * std::sin(angle)) + kCell * draw(-3, 3)});
-    }
-    const ExactPolygon polygon = exact_polygon(corners);
-    if (!strictly_convex(polygon)) continue;
-    std::vector<Hole> holes;
-    const int sides = 4 * draw(1, 5);
-    for (int k = draw(1, 6); k > 0; --k) {
-      // Every other one on whole cells, so that edges and corners coincide.
-      const double grid = k % 2 == 0 ? kCell : 1.0;
-      const auto somewhere = [&] { return grid * std::floor(draw(-100, 100) * kCell / grid); };
-      holes.push_back(hole_about({somewhere(), somewhere()}, kCell * draw(5, 60), sides));
-    }
-    std::vector<const Hole*> all;
-    for (const Hole& hole : holes) all.push_back(&hole);
-    expect_rest(polygon, all, random);
-    if (HasFatalFailure()) FAIL() << seed;
-  }
-}
-
 }  // namespace
 }  // namespace navvi_nav::mesh

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <sstream>
 #include <thread>
 
 #include "small_world.hpp"
@@ -11,15 +10,9 @@ namespace navvi_nav::plan {
 namespace {
 
 PlanRequest with_map(double side) {
-  SmallWorld world;
-  world.room(side, side);
-  octomap::OcTree tree = world.tree();
-  std::ostringstream out;
-  tree.writeBinaryData(out);
-  const std::string text = out.str();
   PlanRequest request;
   request.map = std::make_shared<const MapMessage>(
-      MapMessage{{text.begin(), text.end()}, true, "OcTree", tree.getResolution()});
+      MapMessage{SmallWorld().room(side, side).bytes(), true, "OcTree", 0.05});
   return request;
 }
 

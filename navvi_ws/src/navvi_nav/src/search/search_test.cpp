@@ -89,6 +89,17 @@ bool on_non_manifold_vertex(const mesh::Mesh& mesh, Point point) {
   return joined.size() < there.size();
 }
 
+/// In a mesh of that world in half metres; none where a place lies in a hole or on such a vertex.
+std::optional<Query> draw_query(const mesh::Mesh& mesh, const GridWorld& world,
+                                std::mt19937& random) {
+  const auto start = place_of(mesh, 0.5 * world.somewhere(random));
+  const auto goal = place_of(mesh, 0.5 * world.somewhere(random));
+  if (!start || !goal || on_non_manifold_vertex(mesh, start->point) ||
+      on_non_manifold_vertex(mesh, goal->point))
+    return std::nullopt;
+  return Query{*start, *goal};
+}
+
 Point turned(Point point, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -127,56 +138,20 @@ void judge_worlds(WorldKind kind, double angle, Judge& judge) {
 class Worlds : public testing::TestWithParam<WorldKind> {};
 
 TEST_P(Worlds, have_no_shorter_path_than_the_exact_one) {
-  Judge judge;
-  judge_worlds(GetParam(), 0.0, judge);
-  EXPECT_GT(judge.answered, kSeeds * kQueries / 4);
-}
-
-TEST_P(Worlds, have_none_when_walls_in_line_are_so_but_for_rounding) {
-  Judge judge;
-  judge_worlds(GetParam(), 0.4, judge);
-  EXPECT_GT(judge.answered, kSeeds * kQueries / 4);
+  for (const double angle : {0.0, 0.4}) {  // turned, walls in line are so but for rounding
+    SCOPED_TRACE(angle);
+    Judge judge;
+    judge_worlds(GetParam(), angle, judge);
+    EXPECT_GT(judge.answered, kSeeds * kQueries / 4);
+    if (GetParam() == WorldKind::crumbs) {
+      EXPECT_GT(judge.unreachable, 10);
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Worlds,
                          testing::Values(WorldKind::warehouse, WorldKind::clutter, WorldKind::maze,
                                          WorldKind::crumbs));
-
-TEST(Worlds, are_not_always_in_one_part) {
-  Judge judge;
-  judge_worlds(WorldKind::crumbs, 0.0, judge);
-  EXPECT_GT(judge.unreachable, 10);
-}
-
-TEST(Search, finds_the_shortest_path_between_carved_cylinders) {
-  Judge judge;
-  for (std::uint32_t seed = 0; seed < 100; ++seed) {
-    SCOPED_TRACE(seed);
-    const auto kind = static_cast<WorldKind>(seed % 3);
-    const GridWorld world = grid_world(kind, seed);
-    mesh::CutMesh cut(world.polygons(seed), 0.5);
-    std::mt19937 random(seed);
-    for (int i = 0; i < 6; ++i) {
-      // Some just touch a wall, with their centre on it or in a corner.
-      const Point at = 0.5 * world.somewhere(random);
-      cut.add(at, 0.1 + 0.05 * static_cast<double>(random() % 8),
-              8 + static_cast<int>(random() % 9));
-    }
-    cut.update();
-    const mesh::Mesh& mesh = cut.mesh();
-    VisibilityGraph graph(mesh);
-    for (int i = 0; i < kQueries; ++i) {
-      const auto start = place_of(mesh, 0.5 * world.somewhere(random));
-      const auto goal = place_of(mesh, 0.5 * world.somewhere(random));
-      if (!start || !goal || on_non_manifold_vertex(mesh, start->point) ||
-          on_non_manifold_vertex(mesh, goal->point))
-        continue;
-      judge.judge(mesh, {*start, *goal}, graph);
-      if (HasFailure()) return;
-    }
-  }
-  EXPECT_GT(judge.answered, 200);
-}
 
 TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
   Judge judge;
@@ -190,18 +165,17 @@ TEST(Search, finds_the_shortest_path_when_holes_have_just_moved) {
       for (const int hole : holes) cut.remove(hole);
       holes.clear();
       for (int i = 0; i < 5 && round < 3; ++i)
+        // Some just touch a wall, with their centre on it or in a corner.
         holes.push_back(cut.add(0.5 * world.somewhere(random),
-                                0.1 + 0.05 * static_cast<double>(random() % 8), 8));
+                                0.1 + 0.05 * static_cast<double>(random() % 8),
+                                8 + static_cast<int>(random() % 9)));
       cut.update();
       const mesh::Mesh& mesh = cut.mesh();
       VisibilityGraph graph(mesh);
       for (int i = 0; i < 6; ++i) {
-        const auto start = place_of(mesh, 0.5 * world.somewhere(random));
-        const auto goal = place_of(mesh, 0.5 * world.somewhere(random));
-        if (!start || !goal || on_non_manifold_vertex(mesh, start->point) ||
-            on_non_manifold_vertex(mesh, goal->point))
-          continue;
-        judge.judge(mesh, {*start, *goal}, graph);
+        const std::optional<Query> query = draw_query(mesh, world, random);
+        if (!query) continue;
+        judge.judge(mesh, *query, graph);
         if (HasFailure()) return;
       }
     }
@@ -232,12 +206,9 @@ TEST(Search, keeps_the_sides_of_a_non_manifold_vertex_apart) {
       const mesh::Mesh& mesh = cut.mesh();
       VisibilityGraph graph(mesh);
       for (int i = 0; i < 200; ++i) {
-        const auto start = mesh.locate(0.5 * world.somewhere(random), 1e-9);
-        const auto goal = mesh.locate(0.5 * world.somewhere(random), 1e-9);
-        if (!start || !goal || on_non_manifold_vertex(mesh, start->point) ||
-            on_non_manifold_vertex(mesh, goal->point))
-          continue;
-        judge.judge(mesh, {*start, *goal}, graph);
+        const std::optional<Query> query = draw_query(mesh, world, random);
+        if (!query) continue;
+        judge.judge(mesh, *query, graph);
         if (HasFailure()) return;
       }
     }
@@ -259,19 +230,6 @@ TEST(Search, keeps_one_of_equal_routes_whose_turns_lie_in_line_with_another) {
     judge.judge(mesh, {*place_of(mesh, c.start), *place_of(mesh, c.goal)}, graph);
   }
   EXPECT_EQ(judge.answered, 2);
-}
-
-TEST(Search, gives_the_same_way_back) {
-  Search search(SearchMethod::exact);
-  for (std::uint32_t seed = 0; seed < 20; ++seed) {
-    const GridWorld world = grid_world(WorldKind::clutter, seed);
-    const mesh::Mesh mesh = mesh::join(world.polygons(seed), 0.1);
-    std::mt19937 random(seed);
-    const mesh::Mesh::Place a = *place_of(mesh, 0.1 * world.somewhere(random));
-    const mesh::Mesh::Place b = *place_of(mesh, 0.1 * world.somewhere(random));
-    const double there = search.find(mesh, a, b).length;
-    EXPECT_NEAR(search.find(mesh, b, a).length, there, 1e-9);
-  }
 }
 
 TEST(Search, stays_where_it_is_if_the_start_is_the_goal) {

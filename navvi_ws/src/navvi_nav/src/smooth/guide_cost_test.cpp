@@ -10,13 +10,10 @@ namespace {
 class GuideCosts : public testing::Test {
  protected:
   GuideCosts() {
-    world_.room(14, 10).box(4, 3, 0, 9, 6, 1.0);
-    EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
     cost_.emplace(GuideCostConfig{}, mesh_.mesh(), mesh_.space(), 0.35);
     cost_->allow(1e9);
   }
-  SmallWorld world_;
-  plan::NavMesh mesh_{plan::NavMeshConfig{}};
+  plan::NavMesh mesh_ = mesh_of(SmallWorld().room(14, 10).box(4, 3, 0, 9, 6, 1.0));
   std::optional<GuideCost> cost_;
 };
 
@@ -98,8 +95,7 @@ TEST(Covers, agrees_with_points_along_the_segment_in_any_world) {
   int cut = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
     RandomWorld world(seed);
-    plan::NavMesh nav_mesh{plan::NavMeshConfig{}};
-    ASSERT_EQ(nav_mesh.set_map(world.map.voxels()).error, "");
+    plan::NavMesh nav_mesh = mesh_of(world.map);
     nav_mesh.carve(world.cylinders);
     const mesh::Mesh& mesh = nav_mesh.mesh();
     std::mt19937 random(seed);

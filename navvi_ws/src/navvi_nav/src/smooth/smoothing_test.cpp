@@ -18,28 +18,21 @@ Path smooth(const Path& path, const GuideCost& cost, const SmoothingConfig& conf
 
 class Smoothing : public testing::Test {
  protected:
-  Smoothing() {
-    world_.room(14, 10).box(4, 3, 0, 9, 6, 1.0);
-    EXPECT_EQ(mesh_.set_map(world_.voxels()).error, "");
-  }
   [[nodiscard]] GuideCost cost() const {
-    GuideCost cost(config_.cost, mesh_.mesh(), mesh_.space(), 0.35);
-    return cost;
+    return GuideCost(config_.cost, mesh_.mesh(), mesh_.space(), 0.35);
   }
   [[nodiscard]] Path smoothed(const Path& path) const { return smooth(path, cost(), config_); }
 
-  SmallWorld world_;
-  plan::NavMesh mesh_{plan::NavMeshConfig{}};
+  plan::NavMesh mesh_ = mesh_of(SmallWorld().room(14, 10).box(4, 3, 0, 9, 6, 1.0));
   SmoothingConfig config_;
   const Path zigzag_{{1, 1}, {2, 2.3}, {3, 1.2}, {6, 2.4}, {9, 1.1}, {12, 2.0}, {12, 8}};
 };
 
-TEST_F(Smoothing, leaves_paths_of_less_than_two_points_alone) {
+TEST_F(Smoothing, survives_paths_of_less_than_two_points_and_of_two_equal_ones) {
   EXPECT_TRUE(smoothed({}).empty());
   EXPECT_EQ(smoothed({{1, 1}}).size(), 1U);
+  EXPECT_EQ(smoothed({{1, 1}, {1, 1}}).size(), 2U);
 }
-
-TEST_F(Smoothing, survives_two_equal_points) { EXPECT_EQ(smoothed({{1, 1}, {1, 1}}).size(), 2U); }
 
 TEST_F(Smoothing, leaves_a_path_through_an_obstacle_as_it_is) {
   const Path through{{1, 4.5}, {13, 4.5}};
@@ -60,10 +53,6 @@ TEST_F(Smoothing, moves_a_path_off_the_corners_that_it_hugs) {
   for (const Point point : points_along(path, 0.05))
     least = std::min(least, mesh_.space().clearance(point));
   EXPECT_GT(least, 0.6);
-}
-
-TEST_F(Smoothing, gives_equal_paths_for_equal_input) {
-  EXPECT_EQ(smoothed(zigzag_), smoothed(zigzag_));
 }
 
 TEST_F(Smoothing, stands_by_the_best_path_so_far_when_its_work_is_spent) {
@@ -99,8 +88,7 @@ TEST(SmoothingSeeds, are_cheaper_on_the_mesh_and_dearer_without_ompl) {
   double saved = 0.0;  // m, by OMPL
   for (unsigned seed = 0; seed < 60; ++seed) {
     RandomWorld world(seed);
-    plan::NavMesh nav_mesh{plan::NavMeshConfig{}};
-    ASSERT_EQ(nav_mesh.set_map(world.map.voxels()).error, "");
+    plan::NavMesh nav_mesh = mesh_of(world.map);
     nav_mesh.carve(world.cylinders);
     const mesh::Mesh& mesh = nav_mesh.mesh();
     search::Search search(search::SearchMethod::exact);

@@ -40,6 +40,10 @@ WorldDescription good_world() {
 
 using Damage = std::function<void(WorldDescription&)>;
 
+Damage shape(std::size_t thing, std::size_t index, const Geometry& geometry) {
+  return [=](WorldDescription& w) { w.things[thing].shapes[index].geometry = geometry; };
+}
+
 const std::vector<std::pair<const char*, Damage>>& damages() {
   static const std::vector<std::pair<const char*, Damage>> all{
       {"no things", [](auto& w) { w.things.clear(); }},
@@ -54,31 +58,15 @@ const std::vector<std::pair<const char*, Damage>>& damages() {
       {"rotation that scales", [](auto& w) { w.things[1].pose.linear() *= 2.0; }},
       {"rotation that mirrors", [](auto& w) { w.things[1].pose.linear().col(0) *= -1.0; }},
       {"shape's rotation NaN", [](auto& w) { w.things[1].shapes[0].pose.linear()(0, 0) = kNan; }},
-      {"box size 0",
-       [](auto& w) {
-         w.things[0].shapes[0].geometry = Box{{1.0, 0.0, 1.0}};
-       }},
-      {"box size NaN",
-       [](auto& w) {
-         w.things[0].shapes[0].geometry = Box{{1.0, kNan, 1.0}};
-       }},
-      {"box of 1 km",
-       [](auto& w) {
-         w.things[0].shapes[0].geometry = Box{{1000.0, 1.0, 1.0}};
-       }},
-      {"radius negative",
-       [](auto& w) {
-         w.things[1].shapes[0].geometry = Cylinder{-0.1, 1.0};
-       }},
-      {"length infinite",
-       [](auto& w) {
-         w.things[1].shapes[0].geometry = Cylinder{0.1, kInfinity};
-       }},
-      {"sphere of nothing", [](auto& w) { w.things[1].shapes[1].geometry = Sphere{0.0}; }},
-      {"mesh index too high", [](auto& w) { w.things[1].shapes[2].geometry = triangle(3, 0.0F); }},
-      {"mesh vertex NaN",
-       [](auto& w) { w.things[1].shapes[2].geometry = triangle(2, std::nanf("")); }},
-      {"no mesh", [](auto& w) { w.things[1].shapes[2].geometry = std::shared_ptr<const Mesh>(); }},
+      {"box size 0", shape(0, 0, Box{{1.0, 0.0, 1.0}})},
+      {"box size NaN", shape(0, 0, Box{{1.0, kNan, 1.0}})},
+      {"box of 1 km", shape(0, 0, Box{{1000.0, 1.0, 1.0}})},
+      {"radius negative", shape(1, 0, Cylinder{-0.1, 1.0})},
+      {"length infinite", shape(1, 0, Cylinder{0.1, kInfinity})},
+      {"sphere of nothing", shape(1, 1, Sphere{0.0})},
+      {"mesh index too high", shape(1, 2, triangle(3, 0.0F))},
+      {"mesh vertex NaN", shape(1, 2, triangle(2, std::nanf("")))},
+      {"no mesh", shape(1, 2, std::shared_ptr<const Mesh>())},
       {"route of one way-point", [](auto& w) { w.things[1].route->waypoints.pop_back(); }},
       {"route to nowhere",
        [](auto& w) { w.things[1].route->waypoints[1].at = w.things[1].route->waypoints[0].at; }},
@@ -120,8 +108,8 @@ TEST(WorldHash, changes_with_any_number_and_only_then) {
       [](auto& w) { w.things[1].thing_class = ThingClass::box; },
       [](auto& w) { w.things[1].route->speed = 1.1; },
       [](auto& w) { w.things[1].route.reset(); },
-      [](auto& w) { w.things[1].shapes[2].geometry = triangle(2, 0.5F); },
-      [](auto& w) { w.things[1].shapes[1].geometry = Sphere{0.21}; },
+      shape(1, 2, triangle(2, 0.5F)),
+      shape(1, 1, Sphere{0.21}),
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {
     WorldDescription world = good_world();

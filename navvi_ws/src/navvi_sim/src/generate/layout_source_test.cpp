@@ -52,12 +52,6 @@ TEST_F(LayoutFile, depends_on_the_seed_as_a_preset_does) {
             world_hash(read::load_world({file, "", 5}).world));
 }
 
-TEST_F(LayoutFile, has_workers_who_stand_where_all_are_told_to) {
-  for (const char* name : {"busy", "warehouse"})
-    for (const Thing& thing : read::load_world({name, "", 1, read::Workers::standing}).world.things)
-      EXPECT_FALSE(thing.thing_class == ThingClass::worker && thing.route) << thing.name;
-}
-
 TEST_F(LayoutFile, is_refused_in_one_sentence_with_file_line_and_what_is_allowed) {
   struct Bad {
     std::string text;
@@ -98,14 +92,6 @@ TEST_F(LayoutFile, is_refused_in_one_sentence_with_file_line_and_what_is_allowed
       {"layout:\n  fill: 1.01", 2},
       {"layout:\n  forklifts: 1001", 2},
       {"layout:\n  pedestal_max: 0.31", 2},
-      {"layout:\n  aisle: 3\n  rows: 40", 3},
-      {"layout:\n  blocks: 90", 2},
-      {"layout:\n  docks: 90", 2},
-      {"layout:\n  clutter: 0.7\n  pallets: 0.7", 2},
-      {"layout:\n  aisle: 1.5\n  pallets: 0.7", 3},
-      {"layout:\n  pedestal_min: 0.3\n  pedestal_max: 0.1", 2},
-      {"layout:\n  forklifts: 900", 2},
-      {"layout:\n  standing_workers: 900", 2},
       {"layout:\n\tlength: 40", 2},
       {"layout: {length: 40", 1},
       {"layout:\n  length: *nowhere", 2},
@@ -119,6 +105,37 @@ TEST_F(LayoutFile, is_refused_in_one_sentence_with_file_line_and_what_is_allowed
     EXPECT_NE(sentence.find("line " + std::to_string(bad.line)), std::string::npos) << shown;
     EXPECT_LT(sentence.size(), 1000u) << shown;
     EXPECT_EQ(sentence.find('\n'), std::string::npos) << shown;
+  }
+}
+
+TEST_F(LayoutFile, that_contradicts_itself_is_refused_with_field_line_and_what_is_allowed) {
+  struct Contradiction {
+    std::string field;
+    int line;
+    std::string fields;
+  };
+  const std::vector<Contradiction> all{
+      {"rows", 3, "aisle: 3\n  rows: 40"},
+      {"blocks", 2, "blocks: 50"},
+      {"bays", 2, "bays: 150"},
+      {"aisle", 2, "aisle: 20"},
+      {"cross-aisles", 2, "cross_aisle: 20\n  bays: 0"},
+      {"docks", 2, "docks: 100"},
+      {"walls", 2, "walls: 100"},
+      {"door", 3, "walls: 1\n  door: 10"},
+      {"clutter", 2, "clutter: 0.6\n  pedestals: 0.6"},
+      {"pedestal_min", 2, "pedestal_min: 0.3\n  pedestal_max: 0.1"},
+      {"pallets", 3, "aisle: 1.5\n  pallets: 0.5"},
+      {"forklifts", 2, "forklifts: 500"},
+      {"pallet_robots", 2, "pallet_robots: 1000"},
+      {"walking_workers", 2, "walking_workers: 1000"},
+      {"standing_workers", 2, "standing_workers: 1000"},
+  };
+  for (const Contradiction& one : all) {
+    const std::string sentence = sentence_of("layout:\n  " + one.fields);
+    for (const std::string& words :
+         {"hall.yaml, line " + std::to_string(one.line), one.field, std::string("allowed")})
+      EXPECT_NE(sentence.find(words), std::string::npos) << one.field << ": " << sentence;
   }
 }
 

@@ -60,14 +60,6 @@ TEST(Session, writes_down_each_second_and_each_change_of_the_command) {
   EXPECT_EQ(session.commands()[1].velocity.linear, 0.5);
 }
 
-TEST(Session, a_refused_command_leaves_no_trace) {
-  Session session = Drive(1).begin();
-  EXPECT_EQ(session.step({std::numeric_limits<double>::quiet_NaN(), 0.0}),
-            World::Status::command_refused);
-  EXPECT_EQ(session.steps(), 0u);
-  EXPECT_TRUE(session.commands().empty());
-}
-
 TEST(Session, its_record_repeats_it) {
   const Drive drive(3);
   const Record first = drive.driven(kSteps);

@@ -36,96 +36,6 @@ octomap::OcTree map_of(const std::vector<Thing>& things, double floor_height = 0
   return tree_of(occupancy_of(world, OccupancyConfig{resolution}));
 }
 
-/// Checks voxel by voxel: what `depth` says is inside must be occupied, what it says is more than
-/// a voxel's diagonal outside must not be.
-/// \param depth  m, of a point of the thing's frame: positive inside, negative outside
-template <typename Depth>
-void expect_matches(const octomap::OcTree& map, const Eigen::Isometry3d& frame, double around,
-                    const Depth& depth) {
-  int inside = 0;
-  const Eigen::Vector3d centre = frame.translation();
-  for (double x = -around; x < around; x += 0.031)
-    for (double y = -around; y < around; y += 0.031)
-      for (double z = -around; z < around; z += 0.031) {
-        const Eigen::Vector3d point = centre + Eigen::Vector3d(x, y, z);
-        const double d = depth(frame.inverse() * point);
-        const bool is = occupied(map, point.x(), point.y(), point.z());
-        if (d > kVoxel * 0.05 * 2.0) {
-          ++inside;
-          ASSERT_TRUE(is) << point.transpose() << " lies " << d << " m inside";
-        }
-        if (d < -kVoxel * std::sqrt(3.0)) {
-          ASSERT_FALSE(is) << point.transpose() << " lies " << -d << " m outside";
-        }
-      }
-  EXPECT_GT(inside, 100);
-}
-
-double box_depth(const Eigen::Vector3d& size, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d out = point.cwiseAbs() - size / 2.0;
-  return out.maxCoeff() > 0.0 ? -out.cwiseMax(0.0).norm() : -out.maxCoeff();
-}
-
-TEST(Occupancy, follows_a_box_however_it_lies) {
-  const Eigen::Vector3d size(0.7, 0.4, 0.5);
-  for (const auto& frame :
-       {pose(0, 0, 0.25), pose(1.013, -0.507, 0.3, 0.0, 0.6), pose(-2.0, 3.0, 1.0, 0.8, 1.9)}) {
-    const auto map = map_of({standing(ThingClass::box, Box{size}, frame)});
-    expect_matches(map, frame, 0.6, [&](const auto& point) { return box_depth(size, point); });
-  }
-}
-
-TEST(Occupancy, follows_a_cylinder_however_it_lies) {
-  const auto depth = [](const Eigen::Vector3d& point) {
-    const double radial = point.head<2>().norm() - 0.3;
-    const double along = std::abs(point.z()) - 0.4;
-    const double out = std::max(radial, along);
-    return out > 0.0 ? -std::hypot(std::max(radial, 0.0), std::max(along, 0.0)) : -out;
-  };
-  for (const auto& frame : {pose(0.5, 0.5, 0.4), pose(0.51, 0.47, 0.4, 1.0, 0.3)}) {
-    const auto map = map_of({standing(ThingClass::other, Cylinder{0.3, 0.8}, frame)});
-    expect_matches(map, frame, 0.6, depth);
-  }
-}
-
-TEST(Occupancy, follows_a_sphere) {
-  const Eigen::Isometry3d frame = pose(0.123, 0.456, 0.789);
-  const auto map = map_of({standing(ThingClass::other, Sphere{0.4}, frame)});
-  expect_matches(map, frame, 0.6, [](const auto& point) { return 0.4 - point.norm(); });
-}
-
-TEST(Occupancy, has_the_surface_of_a_mesh_and_not_its_inside) {
-  auto mesh = std::make_shared<Mesh>();
-  mesh->vertices = {{0.0F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 1.0F}};
-  mesh->triangles = {{0, 1, 2}};
-  const auto map = map_of({standing(ThingClass::other, std::shared_ptr<const Mesh>(mesh),
-                                    Eigen::Isometry3d::Identity())});
-  EXPECT_TRUE(occupied(map, 0.5, 0.5, 0.24));
-  EXPECT_TRUE(occupied(map, 0.02, 1.9, 0.94));
-  EXPECT_FALSE(occupied(map, 0.5, 0.5, 0.35));
-  EXPECT_FALSE(occupied(map, 0.5, 0.5, 0.12));
-  EXPECT_FALSE(occupied(map, 1.5, 1.5, 0.75));
-}
-
-/// The same voxels, put in one by one as octomap would have it.
-octomap::OcTree inserted(const octomap::OcTree& map) {
-  octomap::OcTree tree(map.getResolution());
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
-    const octomap::OcTreeKey low = leaf.getIndexKey();
-    const int side = 1 << (map.getTreeDepth() - leaf.getDepth());
-    for (int x = 0; x < side; ++x)
-      for (int y = 0; y < side; ++y)
-        for (int z = 0; z < side; ++z)
-          tree.setNodeValue(octomap::OcTreeKey(static_cast<octomap::key_type>(low[0] + x),
-                                               static_cast<octomap::key_type>(low[1] + y),
-                                               static_cast<octomap::key_type>(low[2] + z)),
-                            map.getClampingThresMaxLog(), true);
-  }
-  tree.updateInnerOccupancy();
-  tree.prune();
-  return tree;
-}
-
 /// A box of 1 x 1 x 1 m as a mesh on the floor, without its lid if `open`.
 std::shared_ptr<const Mesh> crate(bool open) {
   auto mesh = std::make_shared<Mesh>();
@@ -148,10 +58,6 @@ TEST(Occupancy, fills_a_closed_mesh_and_no_open_one_and_no_wall) {
   const auto full = map_of({standing(ThingClass::box, crate(false), frame)});
   EXPECT_TRUE(at(full, inside));
   EXPECT_FALSE(at(full, beside));
-  EXPECT_TRUE(full == inserted(full));
-  expect_matches(full, frame * Eigen::Translation3d(0.5, 0.5, 0.5), 0.8, [](const auto& point) {
-    return box_depth(Eigen::Vector3d::Ones(), point) - 0.01;  // it counts a little lower
-  });
   EXPECT_FALSE(at(map_of({standing(ThingClass::box, crate(true), frame)}), inside));
   EXPECT_FALSE(at(map_of({standing(ThingClass::wall, crate(false), frame)}), inside));
 }
@@ -225,62 +131,10 @@ TEST(Occupancy, has_no_step_where_the_robot_drives_over) {
   }
 }
 
-TEST(Occupancy, is_the_tree_that_octomap_makes_of_the_same_voxels) {
-  auto mesh = std::make_shared<Mesh>();
-  mesh->vertices = {{0.0F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 1.0F}};
-  mesh->triangles = {{0, 1, 2}};
-  const std::vector<Thing> things{
-      standing(ThingClass::floor, Box{{6.0, 6.0, 0.1}}, pose(0, 0, -0.05)),
-      standing(ThingClass::box, Box{{0.8, 0.8, 0.8}}, pose(0, 0, 0.4)),
-      standing(ThingClass::box, Box{{0.4, 0.8, 0.8}}, pose(0.6, 0, 0.4)),  // joins it to one cell
-      standing(ThingClass::box, Box{{0.7, 0.6, 0.5}}, pose(-1.5, 0.3, 0.4, 0.3, 0.7)),
-      standing(ThingClass::other, Cylinder{0.3, 1.0}, pose(1.5, -1.0, 0.5)),
-      standing(ThingClass::other, Cylinder{0.3, 1.0}, pose(1.5, 1.0, 0.5, 1.2)),
-      standing(ThingClass::other, Sphere{0.4}, pose(-1.0, -1.0, 0.3)),
-      standing(ThingClass::other, std::shared_ptr<const Mesh>(mesh), pose(0.3, 0.3, 0.5))};
-  for (std::size_t count = 1; count <= things.size(); ++count) {
-    const octomap::OcTree map =
-        map_of({things.begin(), things.begin() + static_cast<std::ptrdiff_t>(count)});
-    EXPECT_GT(map.getNumLeafNodes(), 100U);
-    EXPECT_TRUE(map == inserted(map)) << "with " << count << " things";
-  }
-}
-
-TEST(Occupancy, of_many_things_is_that_of_each_one) {
-  const std::vector<Thing> things{
-      standing(ThingClass::box, Box{{0.8, 0.8, 0.8}}, pose(0, 0, 0.4)),
-      standing(ThingClass::box, Box{{0.9, 0.3, 0.5}}, pose(0.2, 0.1, 0.6, 0.3, 0.7)),
-      standing(ThingClass::other, Cylinder{0.3, 1.0}, pose(0.4, 0.2, 0.5))};
-  const auto all = map_of(things);
-  std::vector<octomap::OcTree> each;
-  for (const Thing& thing : things) each.push_back(map_of({thing}));
-  for (double x = -1.0; x < 1.5; x += 0.03)
-    for (double y = -1.0; y < 1.0; y += 0.03)
-      for (double z = -0.2; z < 1.5; z += 0.03) {
-        bool any = false;
-        for (const auto& one : each) any = any || occupied(one, x, y, z);
-        ASSERT_EQ(occupied(all, x, y, z), any) << x << " " << y << " " << z;
-      }
-}
-
-TEST(Occupancy, keeps_what_is_thinner_than_a_voxel) {
-  const auto map =
-      map_of({standing(ThingClass::wall, Box{{0.001, 2.0, 2.0}}, pose(1.0, 0.0, 1.0))});
-  EXPECT_TRUE(occupied(map, 1.01, 0.0, 1.0) || occupied(map, 0.99, 0.0, 1.0));
-}
-
 TEST(Occupancy, leaves_out_what_has_a_route) {
   Thing mover = standing(ThingClass::forklift, Box{{1.0, 1.0, 1.0}}, pose(0, 0, 0.5));
   mover.route = Route{{{{0, 0}}, {{5, 0}}}};
   EXPECT_FALSE(occupied(map_of({mover}), 0.0, 0.0, 0.5));
-}
-
-TEST(Occupancy, of_nothing_is_empty) {
-  const auto map = map_of({});
-  int occupied_leafs = 0;
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf)
-    occupied_leafs += map.isNodeOccupied(*leaf) ? 1 : 0;
-  EXPECT_EQ(occupied_leafs, 0);
 }
 
 TEST(Occupancy, refuses_what_does_not_fit_into_a_tree) {

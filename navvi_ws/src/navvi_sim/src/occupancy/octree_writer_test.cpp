@@ -248,6 +248,7 @@ TEST(OctreeWriter, writes_what_octomap_writes_of_random_worlds_voxel_by_voxel) {
 
 TEST(OctreeWriter, writes_nothing_of_a_world_without_things) {
   EXPECT_TRUE(occupancy_of({}, {}).stream().empty());
+  EXPECT_EQ(tree_of({0.05, {}}).size(), 0U);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "octomap_tree.hpp"
-#include "sdf_folder.hpp"
 
 namespace navvi_sim::occupancy {
 namespace {
@@ -161,52 +160,6 @@ TEST(Triangle, is_where_a_rasteriser_has_it_at_any_angle_and_scale) {
             EXPECT_EQ(too_many, 0) << plane << " m at " << resolution << " m, turned by " << yaw
                                    << ", " << tilt << ", " << width << " x " << height;
           }
-}
-
-class WallsOf : public read::SdfFolder {
- protected:
-  /// Whether no line along x or y, at any height of the wall, passes through the square of walls
-  /// from -`side` to `side`.
-  static bool is_closed(const octomap::OcTree& map, double side) {
-    const auto wall_at = [&](double at, bool along_x, double aside, double z) {
-      for (const double beside : {-0.025, 0.025})
-        if (along_x ? occupied(map, at + beside, aside, z) : occupied(map, aside, at + beside, z))
-          return true;
-      return false;
-    };
-    for (const double aside : {-0.47 * side, 0.03, 0.71 * side})
-      for (double z = 0.12; z < 0.4; z += 0.05)
-        for (const double at : {-side, side})
-          for (const bool along_x : {true, false})
-            if (!wall_at(at, along_x, aside, z)) return false;
-    return true;
-  }
-  [[nodiscard]] octomap::OcTree map_of_world(const std::string& body) const {
-    return tree_of(occupancy_of(load(ground_ + body).world, OccupancyConfig{}));
-  }
-};
-
-TEST_F(WallsOf, polylines_meshes_and_boxes_are_closed_on_any_plane) {
-  for (const double side : {0.2, 0.55, 0.75, 1.5, 3.0, 3.05, 4.25, 4.75, 5.25, 5.75, 6.0, 8.0}) {
-    const std::string s = std::to_string(side), m = "-" + s;
-    const auto block =
-        model("block", "<polyline><height>0.5</height><point>" + m + " " + m + "</point><point>" +
-                           s + " " + m + "</point><point>" + s + " " + s + "</point><point>" + m +
-                           " " + s + "</point></polyline>");
-    EXPECT_TRUE(is_closed(map_of_world(block), side)) << "polyline of " << side;
-    write("block.obj", "v " + m + " " + m + " 0\nv " + s + " " + m + " 0\nv " + s + " " + s +
-                           " 0\nv " + m + " " + s + " 0\nv " + m + " " + m + " 1\nv " + s + " " +
-                           m + " 1\nv " + s + " " + s + " 1\nv " + m + " " + s +
-                           " 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
-    EXPECT_TRUE(is_closed(map_of_world(model("block", "<mesh><uri>block.obj</uri></mesh>")), side))
-        << "mesh of " << side;
-    const std::string size = std::to_string(2.0 * side);
-    EXPECT_TRUE(
-        is_closed(map_of_world(model("block", "<box><size>" + size + " " + size + " 1</size></box>",
-                                     "0 0 0.5 0 0 0")),
-                  side))
-        << "box of " << side;
-  }
 }
 
 }  // namespace

@@ -19,30 +19,44 @@ const std::string kFacet =
     "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
     "endfacet\nendsolid s\n";
 const std::string kBinaryStl = std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0');
-const std::string kCollada =
-    "<?xml version='1.0'?><COLLADA version='1.4.1'><asset><unit meter='1'/></asset>"
-    "<library_geometries><geometry id='g'><mesh><source id='p'><float_array id='a' count='9'>0 0 0 1 "
-    "0 0 0 1 0</float_array><technique_common><accessor source='#a' count='3' stride='3'><param "
-    "name='X' type='float'/><param name='Y' type='float'/><param name='Z' type='float'/></accessor>"
-    "</technique_common></source><vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
-    "<triangles count='1'><input offset='0' semantic='VERTEX' source='#v'/><p>0 1 2</p></triangles>"
-    "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='s'><node id='n'>"
-    "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix><instance_geometry url='#g'/></node>"
-    "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 
-TEST_F(Fuzz, a_world_is_read_or_refused) {
-  const std::string world =
-      "<?xml version='1.0'?><sdf version='1.6'><world name='w'>" + ground_ +
-      model("rack", "<box><size>1 2 3</size></box>", "3 1 1.5 0 0 0.3") +
-      model("post", "<cylinder><radius>0.2</radius><length>2</length></cylinder>", "-3 1 1 0 0 0") +
-      model("tool", "<mesh><uri>file.obj</uri><scale>1 1 1</scale></mesh>", "0 4 0 0 0 0") +
-      "<actor name='a'><pose>1 1 0 0 0 0</pose><script><trajectory id='0' type='walk'><waypoint>"
-      "<time>0</time><pose>1 1 0 0 0 0</pose></waypoint><waypoint><time>9</time><pose>4 1 0 0 0 0"
-      "</pose></waypoint></trajectory></script></actor><include><uri>model://m</uri><pose>5 5 0 0 0 0"
-      "</pose></include><state world_name='w'><model name='rack'><pose>2 1 1.5 0 0 0</pose></model>"
-      "</state></world></sdf>";
-  navvi_test::fuzz({world}, "a.world", [](const std::string& path) {
-    static_cast<void>(load_world({path, "", 1, Workers::as_laid_out, "", Missing::leave_out}));
+/// A small world with something of everything.
+constexpr const char* kSmall = R"(<?xml version='1.0'?>
+<sdf version='1.9'><world name='w'><light name='sun' type='point'/>
+<frame name='f'><pose relative_to='crate'>1 0 0 0 0 0</pose></frame>
+<model name='ground'><link name='l'><collision name='c'><pose>0 0 -0.05 0 0 0</pose><geometry>
+<box><size>20 20 0.1</size></box></geometry></collision></link></model>
+<model name='crate' placement_frame='l'><pose degrees='true'>2 0 0.5 0 0 30</pose><link name='l'>
+<collision name='c'><geometry><cylinder><radius>0.4</radius><length>1</length></cylinder></geometry>
+</collision><visual name='v'/></link><joint name='j' type='fixed'><parent>world</parent><child>l
+</child></joint></model>
+<model name='shelf'><pose relative_to='f'>0 3 1 0 0 0</pose><link name='l'><collision name='c'>
+<geometry><mesh><uri>m.obj</uri><scale>1 1 2</scale></mesh></geometry></collision></link><model
+ name='in'><link name='k'><collision name='d'><geometry><capsule><radius>0.1</radius><length>1</length>
+</capsule></geometry></collision></link></model></model>
+<include><uri>model://part</uri><name>p1</name><pose>0 -3 0 0 0 0</pose></include>
+<model name='post'><link name='l'><collision name='c'><geometry><polyline><height>1</height>
+<point>0 0</point><point>1 0</point><point>0 1</point></polyline></geometry></collision></link>
+<plugin name='p' filename='gz-sim-trajectory-follower-system'><loop>true</loop><waypoints>
+<waypoint>4 0</waypoint><waypoint>4 4</waypoint></waypoints></plugin></model>
+<actor name='ann'><script><loop>true</loop><delay_start>1</delay_start><trajectory id='0' type='w'>
+<waypoint><time>0</time><pose>0 0 1 0 0 0</pose></waypoint><waypoint><time>3</time>
+<pose>3 0 1 0 0 0</pose></waypoint></trajectory></script></actor>
+<state world_name='w'><model name='post'><pose>1 1 0 0 0 0</pose></model></state>
+</world></sdf>)";
+
+TEST_F(Fuzz, a_world_is_read_or_refused_by_its_name) {
+  write("m.obj", kMesh);
+  write_model("part", cube_);
+  ASSERT_EQ(sentence_of(write("a.world", kSmall)), "");
+  const std::string models = (folder_ / "models").string();
+  navvi_test::fuzz({kSmall}, "a.world", [&](const std::string& path) {
+    try {
+      static_cast<void>(load_world({path, models, 1, Workers::as_laid_out, "", Missing::leave_out}));
+    } catch (const WorldError& error) {
+      EXPECT_NE(std::string(error.what()).find("a.world"), std::string::npos) << error.what();
+      throw;
+    }
   });
 }
 
@@ -50,7 +64,9 @@ TEST_F(Fuzz, a_mesh_is_read_or_refused) {
   const auto read = [](const std::string& path) { static_cast<void>(read_mesh(path, {})); };
   navvi_test::fuzz({kMesh}, "a.obj", read);
   navvi_test::fuzz({kFacet, kBinaryStl}, "a.stl", read);
-  navvi_test::fuzz({kCollada}, "a.dae", read);
+  const std::string node = "<node><matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix>"
+                           "<instance_geometry url='#g'/></node>";
+  navvi_test::fuzz({collada("", node)}, "a.dae", read);
 }
 
 TEST_F(Fuzz, a_layout_is_built_or_refused) {
@@ -69,3 +85,6 @@ TEST_F(Fuzz, rules_of_classes_are_read_or_refused) {
 
 }  // namespace
 }  // namespace navvi_sim::read
+
+/// assimp loses memory over some broken files; the leak sanitizer asks here what is not ours.
+extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp"; }

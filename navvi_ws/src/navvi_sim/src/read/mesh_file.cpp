@@ -138,14 +138,7 @@ std::string plain_collada(const std::filesystem::path& file) {
 }
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
-  Eigen::Matrix4d result;
-  result << static_cast<double>(m.a1), static_cast<double>(m.a2), static_cast<double>(m.a3),
-      static_cast<double>(m.a4), static_cast<double>(m.b1), static_cast<double>(m.b2),
-      static_cast<double>(m.b3), static_cast<double>(m.b4), static_cast<double>(m.c1),
-      static_cast<double>(m.c2), static_cast<double>(m.c3), static_cast<double>(m.c4),
-      static_cast<double>(m.d1), static_cast<double>(m.d2), static_cast<double>(m.d3),
-      static_cast<double>(m.d4);
-  return result;
+  return Eigen::Map<const Eigen::Matrix<ai_real, 4, 4, Eigen::RowMajor>>(m[0]).cast<double>();
 }
 
 /// Refuses corners that are no numbers, which assimp would join with others.

@@ -4,35 +4,13 @@
 #include <sys/stat.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "sdf_folder.hpp"
 
 namespace navvi_sim::read {
 namespace {
 
-/// Collada with one triangle, geometry g.
-std::string collada(const std::string& library, const std::string& scene) {
-  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
-         "version='1.4.1'><asset><unit meter='1'/><up_axis>Z_UP</up_axis></asset>"
-         "<library_geometries><geometry id='g'><mesh><source id='p'><float_array id='a' count='9'>"
-         "0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source='#a' count='3' "
-         "stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param name='Z' "
-         "type='float'/></accessor></technique_common></source><vertices id='v'><input "
-         "semantic='POSITION' source='#p'/></vertices><triangles count='1'><input offset='0' "
-         "semantic='VERTEX' source='#v'/><p>0 1 2</p></triangles></mesh></geometry>"
-         "</library_geometries>" +
-         library + "<library_visual_scenes><visual_scene id='s'>" + scene +
-         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
-         "</COLLADA>";
-}
 const std::string kPiece = "<instance_geometry url='#g'/>";
-
-std::string repeated(const std::string& text, int count) {
-  std::string result;
-  for (int i = 0; i < count; ++i) result += text;
-  return result;
-}
 
 class MeshFile : public SdfFolder {
  protected:
@@ -66,8 +44,7 @@ TEST_F(MeshFile, takes_collada_apart_node_by_node) {
 }
 
 TEST_F(MeshFile, refuses_collada_whose_array_is_shorter_than_what_is_read_of_it) {
-  std::string text = collada("", "<node id='n'>" + kPiece + "</node>");
-  text.replace(text.find("count='9'"), 9, "count='0'");
+  const std::string text = replaced(collada("", "<node>" + kPiece + "</node>"), "'9'", "'0'");
   EXPECT_NE(refusal("a.dae", text).find("smaller count"), std::string::npos);
 }
 
@@ -95,9 +72,8 @@ TEST_F(MeshFile, refuses_collada_nodes_that_instance_themselves) {
 TEST_F(MeshFile, refuses_words_among_the_indices_of_collada_whatever_parts_them) {
   const std::string whole = collada("", "<node>" + kPiece + "</node>");
   for (const std::string words : {"0 1 foo", "0 1<!-- -->foo 2", "0 1<!x>foo 2", "<x/>foo"}) {
-    std::string text = whole;
-    text.replace(text.find("0 1 2</p>"), 5, words);
-    EXPECT_NE(refusal("words.dae", text).find("more than indices"), std::string::npos) << words;
+    const std::string sentence = refusal("words.dae", replaced(whole, "0 1 2<", words + "<"));
+    EXPECT_NE(sentence.find("more than indices"), std::string::npos) << words;
   }
 }
 
@@ -178,7 +154,6 @@ TEST_F(MeshFile, without_extent_or_with_corners_that_are_no_numbers_is_refused) 
 }
 
 TEST_F(MeshFile, with_a_face_of_very_many_corners_or_more_values_than_bytes_is_refused) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
   std::string face = "f";
   std::string obj;
   for (int i = 1; i <= 60'000; ++i) {
@@ -186,24 +161,11 @@ TEST_F(MeshFile, with_a_face_of_very_many_corners_or_more_values_than_bytes_is_r
            " 0\n";
     face += " " + std::to_string(i);
   }
-  const auto sentence_of = [&](const std::string& name, const std::string& text) -> std::string {
-    const std::filesystem::path file = folder / ("navvi_" + name);
-    std::ofstream(file) << text;
-    try {
-      (void)read_mesh(file, {});
-    } catch (const WorldError& error) {
-      std::filesystem::remove(file);
-      return error.what();
-    }
-    return "read";
-  };
-  EXPECT_NE(sentence_of("face.obj", obj + face + "\n").find("corners"), std::string::npos);
+  EXPECT_NE(refusal("face.obj", obj + face + "\n").find("corners"), std::string::npos);
   const std::string good = collada("", "<node id='n'>" + kPiece + "</node>");
-  EXPECT_EQ(sentence_of("good.dae", good), "read");
+  EXPECT_EQ(refusal("good.dae", good), "");
   const auto changed = [&](const std::string& from, const std::string& to) {
-    std::string text = good;
-    text.replace(text.find(from), from.size(), to);
-    return sentence_of("bad.dae", text);
+    return refusal("bad.dae", replaced(good, from, to));
   };
   EXPECT_NE(changed("count='9'", "count='900000000'").find("larger count"), std::string::npos);
   EXPECT_NE(changed("stride='3'", "stride='300000000'").find("larger stride"), std::string::npos);

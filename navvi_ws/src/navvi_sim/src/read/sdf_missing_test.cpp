@@ -14,7 +14,7 @@ class MissingPiece : public SdfFolder {
   static std::string include(const std::string& model) {
     return "\n<include><uri>model://" + model + "</uri></include>";
   }
-  static std::string box(const std::string& name, const std::string& pose) {
+  static std::string cube(const std::string& name, const std::string& pose) {
     return "\n" + model(name, "<box><size>1 1 1</size></box>", pose);
   }
   static std::string mesh(const std::string& file, const std::string& more = "") {
@@ -22,7 +22,7 @@ class MissingPiece : public SdfFolder {
   }
   /// Refused by default with `words`; left out, the rest of the world is read.
   void expect_left_out(const std::string& piece, const std::vector<std::string>& words) const {
-    const std::string body = ground_ + piece + box("crate", "3 0 0.5 0 0 0");
+    const std::string body = ground_ + piece + cube("crate", "3 0 0.5 0 0 0");
     const std::string sentence = sentence_of(write_world(body));
     for (const std::string& word : words)
       EXPECT_NE(sentence.find(word), std::string::npos) << word << " in: " << sentence;
@@ -38,8 +38,8 @@ class MissingPiece : public SdfFolder {
 
 TEST_F(MissingPiece, and_all_others_are_named_at_once) {
   const std::string body = ground_ + include("none") + include("nowhere") + include("none") +
-                           model("a", mesh("absent.dae")) + box("far", "0 0 9999 0 0 0") +
-                           box("crate", "3 0 0.5 0 0 0");
+                           model("a", mesh("absent.dae")) + cube("far", "0 0 9999 0 0 0") +
+                           cube("crate", "3 0 0.5 0 0 0");
   const std::string sentence = sentence_of(write_world(body));
   for (const char* word : {"5 pieces", "line 2", "'model://none'", "'model://nowhere'",
                            "2 more of the same kind", "'absent.dae'", "9999"})
@@ -61,14 +61,14 @@ TEST_F(MissingPiece, of_a_model_leaves_the_rest_of_the_model) {
 }
 
 TEST_F(MissingPiece, is_a_pose_that_no_stream_reads) {
-  const LoadedWorld loaded = load(ground_ + box("glued", "1 2-0.5 0 0 0"));
+  const LoadedWorld loaded = load(ground_ + cube("glued", "1 2-0.5 0 0 0"));
   EXPECT_LT(
       (thing_named(loaded.world, "glued")->pose.translation() - Eigen::Vector3d(1, 2, -0.5)).norm(),
       1e-12);
   for (const char* wrong : {"1 2 0 0 0", "1 2 0 0 0 0 0", "1 2 0 0 0 x", "1 2 0 0 0 0x1",
                             "1 2 0 0 0 1e999", "1,2,0,0,0,0"})
-    expect_left_out(box("it", wrong), {"line 2", wrong, "6 finite numbers"});
-  expect_left_out(box("it", "0 0 343582 0 0 0"), {"line 2", "up to 1000 m", "in 'it'"});
+    expect_left_out(cube("it", wrong), {"line 2", wrong, "6 finite numbers"});
+  expect_left_out(cube("it", "0 0 343582 0 0 0"), {"line 2", "up to 1000 m", "in 'it'"});
 }
 
 TEST_F(MissingPiece, is_a_mesh_that_is_flat_far_away_or_too_large) {
@@ -91,22 +91,17 @@ TEST_F(MissingPiece, is_a_shape_that_is_not_known) {
 }
 
 TEST_F(MissingPiece, is_no_mesh_with_comments_and_blanks) {
-  write("tri.dae",
-        "<?xml version='1.0'?><!-- made by hand -->\n<COLLADA "
-        "xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><asset><unit "
-        "meter='1'/></asset><library_effects><effect id='e'><profile_COMMON><technique sid='t'>"
-        "<phong><diffuse><color> 0.3 0.3 0.3 1</color></diffuse></phong></technique>"
-        "</profile_COMMON></effect></library_effects><library_materials><material id='m'>"
-        "<instance_effect url='#e'/></material></library_materials><library_geometries>"
-        "<geometry id='g'><mesh><source id='p'><float_array id='a' count='9'> 0 0 1 2 0 1\n"
-        "0 3 1</float_array><technique_common><accessor source='#a' count='3' stride='3'><param "
-        "name='X' type='float'/><param name='Y' type='float'/><param name='Z' type='float'/>"
-        "</accessor></technique_common></source><vertices id='v'><input semantic='POSITION' "
-        "source='#p'/><!-- no normals --></vertices><triangles count='1' material='m'><input "
-        "semantic='VERTEX' source='#v' offset='0'/><p> 0 1 2</p></triangles></mesh></geometry>"
-        "</library_geometries><library_visual_scenes><visual_scene id='s'><node id='n'>"
-        "<instance_geometry url='#g'/></node></visual_scene></library_visual_scenes><scene>"
-        "<instance_visual_scene url='#s'/></scene></COLLADA>");
+  std::string text = collada(
+      "<library_effects><effect id='e'><profile_COMMON><technique sid='t'><phong><diffuse><color> "
+      "0.3 0.3 0.3 1</color></diffuse></phong></technique></profile_COMMON></effect>"
+      "</library_effects><library_materials><material id='m'><instance_effect url='#e'/></material>"
+      "</library_materials>",
+      "<node><instance_geometry url='#g'/></node>");
+  text = replaced(text, "<COLLADA", "<!-- made by hand -->\n<COLLADA");
+  text = replaced(text, "0 0 0 1 0 0 0 1 0<", " 0 0 1 2 0 1\n0 3 1<");
+  text = replaced(text, "</vertices>", "<!-- no normals --></vertices>");
+  text = replaced(text, "count='1'", "count='1' material='m'");
+  write("tri.dae", replaced(text, "<p>0", "<p> 0"));
   const LoadedWorld loaded = load(ground_ + model("it", mesh("tri.dae")));
   const Eigen::AlignedBox3d box = bounds(*thing_named(loaded.world, "it"));
   EXPECT_LT((box.max() - Eigen::Vector3d(2, 3, 1)).norm(), 1e-6);
@@ -149,7 +144,7 @@ TEST_F(MissingPiece, is_said_to_be_in_the_folder_of_the_repository_that_has_it) 
 TEST_F(MissingPiece, is_found_in_the_folder_that_the_package_exports_to_gazebo) {
   write("package.xml",
         "<package><export><gazebo_ros gazebo_model_path=\"${prefix}/media\"/></export></package>");
-  write("media/crate/model.sdf", "<sdf version='1.6'>" + box("crate", "3 0 0.5 0 0 0") + "</sdf>");
+  write("media/crate/model.sdf", "<sdf version='1.6'>" + cube("crate", "3 0 0.5 0 0 0") + "</sdf>");
   const std::string world =
       write("worlds/deep/my.world",
             "<sdf version='1.6'><world name='w'>" + ground_ + include("crate") + "</world></sdf>");

@@ -23,8 +23,7 @@ class SavedWorld : public SdfFolder {
 
 TEST_F(SavedWorld, has_its_models_where_and_as_large_as_the_state_says) {
   const LoadedWorld loaded =
-      load(ground_ + model("wall_1", "<box><size>2 0.2 2</size></box>", "0 5 1 0 0 0") +
-           model("wall_2", "<box><size>2 0.2 2</size></box>", "0 -5 1 0 0 0") +
+      load(ground_ + box("wall_1", "2 0.2 2", "0 5 1") + box("wall_2", "2 0.2 2", "0 -5 1") +
            state("<model name='wall_1'><pose>0 3 1 0 0 0</pose><scale>4 1 1</scale></model>"
                  "<model name='wall_2'><pose>0 -5 1 0 0 0</pose><scale>1 1 1</scale></model>"
                  "<model name='none'><pose>0 0 0 0 0 0</pose></model><insertions/>"));
@@ -41,13 +40,13 @@ TEST_F(SavedWorld, has_links_and_nested_models_where_the_state_says_in_map) {
       "</collision>";
   const LoadedWorld loaded =
       load(ground_ + "<model name='train'><pose>1 1 0.5 0 0 0</pose><link name='a'>" + box +
-           "</link><link name='b'><pose>2 0 0 0 0 0</pose>" + box +
+           "</link><link name='A::b'><pose>2 0 0 0 0 0</pose>" + box +
            "</link><model name='cab'>"
            "<link name='roof'><pose>0 0 1 0 0 0</pose>" +
            box + "</link></model></model>" +
-           state("<model name='train'><pose>1 2 0.5 0 0 1.5707963267948966</pose><link name='b'>"
-                 "<pose>6 0 0.5 0 0 0</pose></link><model name='cab'><pose>-5 0 0.5 0 0 0</pose>"
-                 "</model></model>"));
+           state("<model name='train'><pose>1 2 0.5 0 0 1.5707963267948966</pose><link name='A::b'>"
+                 "<pose frame=''>6 0 0.5 0 0 0</pose></link><model name='cab'>"
+                 "<pose>-5 0 0.5 0 0 0</pose></model></model>"));
   const Thing* train = thing_named(loaded.world, "train");
   ASSERT_EQ(train->shapes.size(), 3U);
   const auto place = [&](std::size_t shape) -> Eigen::Vector3d {
@@ -79,8 +78,7 @@ TEST_F(SavedWorld, whose_state_is_out_of_range_is_refused_or_read_without_that_m
   for (const char* wrong : {"<pose>0 0 343582 0 0 0</pose>",
                             "<pose>0 0 1 0 0 0</pose><scale>1 0 1"
                             "</scale>"}) {
-    const std::string body = ground_ + model("book", "<box><size>1 1 1</size></box>") +
-                             model("desk", "<box><size>1 1 1</size></box>", "3 0 0.5 0 0 0") +
+    const std::string body = ground_ + box("book", "1 1 1") + box("desk", "1 1 1", "3 0 0.5") +
                              state("\n<model name='book'>" + std::string(wrong) + "</model>");
     EXPECT_NE(sentence_of(write_world(body)).find("line 2"), std::string::npos) << wrong;
     const LoadedWorld loaded = load_leaving_out(body);

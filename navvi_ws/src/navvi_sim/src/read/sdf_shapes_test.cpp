@@ -22,16 +22,21 @@ class SdfShapesTest : public SdfFolder {
   }
 };
 
-TEST_F(SdfShapesTest, are_box_cylinder_and_sphere_as_they_are) {
-  EXPECT_LT(
-      (bounds(thing_of("<box><size>1 2 3</size></box>")).sizes() - Eigen::Vector3d(1, 2, 3)).norm(),
-      1e-9);
-  const Thing pole = thing_of("<cylinder><radius>0.5</radius><length>2</length></cylinder>");
-  EXPECT_LT((bounds(pole).sizes() - Eigen::Vector3d(1, 1, 2)).norm(), 1e-9);
-  EXPECT_LT(
-      (bounds(thing_of("<sphere><radius>0.5</radius></sphere>")).sizes() - Eigen::Vector3d::Ones())
-          .norm(),
-      1e-9);
+TEST_F(SdfShapesTest, are_box_cylinder_and_sphere_as_they_are_and_a_capsule_is_of_these) {
+  struct Row {
+    const char* geometry;
+    std::size_t shapes;
+    Eigen::Vector3d size;
+  };
+  for (const Row& row :
+       {Row{"<box><size>1 2 3</size></box>", 1, {1, 2, 3}},
+        Row{"<cylinder><radius>0.5</radius><length>2</length></cylinder>", 1, {1, 1, 2}},
+        Row{"<sphere><radius>0.5</radius></sphere>", 1, {1, 1, 1}},
+        Row{"<capsule><radius>0.2</radius><length>1</length></capsule>", 3, {0.4, 0.4, 1.4}}}) {
+    const Thing thing = thing_of(row.geometry);
+    EXPECT_EQ(thing.shapes.size(), row.shapes) << row.geometry;
+    EXPECT_LT((bounds(thing).sizes() - row.size).norm(), 1e-9) << row.geometry;
+  }
 }
 
 TEST_F(SdfShapesTest, are_all_taken_with_a_note_where_a_geometry_has_several) {
@@ -54,12 +59,6 @@ TEST_F(SdfShapesTest, make_a_cone_with_its_tip_up) {
     volume +=
         mesh.vertices[side[0]].cross(mesh.vertices[side[1]]).dot(mesh.vertices[side[2]]) / 6.0;
   EXPECT_NEAR(volume, 3.14159 * 0.25 * 2.0 / 3.0, 0.02);
-}
-
-TEST_F(SdfShapesTest, make_a_capsule_of_a_cylinder_and_two_spheres) {
-  const Thing pill = thing_of("<capsule><radius>0.2</radius><length>1</length></capsule>");
-  EXPECT_EQ(pill.shapes.size(), 3U);
-  EXPECT_LT((bounds(pill).sizes() - Eigen::Vector3d(0.4, 0.4, 1.4)).norm(), 1e-9);
 }
 
 TEST_F(SdfShapesTest, make_a_mesh_of_an_ellipsoid_and_a_sphere_of_a_round_one) {

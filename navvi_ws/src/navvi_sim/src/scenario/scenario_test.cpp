@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "description/solid_mesh.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 
 namespace navvi_sim::scenario {
@@ -20,11 +21,16 @@ Thing thing(const std::string& name, ThingClass thing_class, const Eigen::Vector
   return result;
 }
 
+WorldDescription ground(double length, double width) {
+  WorldDescription world;
+  world.name = "ground";
+  world.things = {thing("ground", ThingClass::floor, {0.0, 0.0, -0.05}, {length, width, 0.1})};
+  return world;
+}
+
 /// 16 x 8 m of floor, cut in two by a wall at x = 0 with a door of `door` m at its southern end.
 WorldDescription two_rooms(double door) {
-  WorldDescription world;
-  world.name = "two rooms";
-  world.things.push_back(thing("ground", ThingClass::floor, {0.0, 0.0, -0.05}, {16.0, 8.0, 0.1}));
+  WorldDescription world = ground(16.0, 8.0);
   world.things.push_back(
       thing("wall", ThingClass::wall, {0.0, door / 2.0, 1.0}, {0.2, 8.0 - door, 2.0}));
   return world;
@@ -87,9 +93,7 @@ TEST_F(ScenarioIn, takes_a_given_start_and_goal_as_they_are) {
 }
 
 TEST_F(ScenarioIn, is_drawn_inside_a_house_and_not_in_the_ring_of_floor_around) {
-  WorldDescription world;
-  world.name = "house";
-  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {40.0, 40.0, 0.1}));
+  WorldDescription world = ground(40.0, 40.0);
   for (const double side : {-1.0, 1.0}) {
     world.things.push_back(thing("a", ThingClass::wall, {0, 4 * side, 1}, {8.2, 0.2, 2.0}));
     world.things.push_back(thing("b", ThingClass::wall, {4 * side, 1, 1}, {0.2, 6.0, 2.0}));
@@ -107,26 +111,22 @@ TEST_F(ScenarioIn, is_drawn_inside_a_house_and_not_in_the_ring_of_floor_around) 
 }
 
 TEST_F(ScenarioIn, is_5_m_long_or_more_beside_a_small_thing_where_the_floor_has_it) {
-  WorldDescription world;
-  world.name = "can";
-  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {14.0, 14.0, 0.1}));
+  WorldDescription world = ground(14.0, 14.0);
   world.things.push_back(thing("can", ThingClass::other, {0, 0, 0.1}, {0.1, 0.1, 0.2}));
   enter(world);
   for (std::uint64_t seed = 0; seed < 20; ++seed) EXPECT_GE(draw(seed).route_length, 5.0) << seed;
-  world.things[0] = thing("ground", ThingClass::floor, {0, 0, -0.05}, {4.0, 4.0, 0.1});
+  world.things[0] = ground(4.0, 4.0).things[0];
   enter(world);
   EXPECT_NE(draw(1).note.find("too near for a trial"), std::string::npos);
   EXPECT_GE(draw(1).route_length, 1.0);
-  world.things[0] = thing("ground", ThingClass::floor, {0, 0, -0.05}, {1.3, 1.3, 0.1});
+  world.things[0] = ground(1.3, 1.3).things[0];
   world.things.pop_back();
   enter(world);
   EXPECT_THROW(static_cast<void>(draw(1)), WorldError);
 }
 
 TEST_F(ScenarioIn, is_drawn_in_the_furnished_part_of_a_floor_that_is_cut_in_two) {
-  WorldDescription world;
-  world.name = "house without a door";
-  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {60.0, 60.0, 0.1}));
+  WorldDescription world = ground(60.0, 60.0);
   for (const double side : {-1.0, 1.0}) {
     world.things.push_back(thing("a", ThingClass::wall, {0, 6 * side, 1}, {12.2, 0.2, 2.0}));
     world.things.push_back(thing("b", ThingClass::wall, {6 * side, 0, 1}, {0.2, 12.2, 2.0}));
@@ -140,30 +140,16 @@ TEST_F(ScenarioIn, is_drawn_in_the_furnished_part_of_a_floor_that_is_cut_in_two)
 }
 
 /// A box from (-x, -y) to (x, y) as a closed mesh of 2 m.
-void add_shell(Mesh& mesh, float x, float y) {
+void add_shell(Mesh& mesh, double x, double y) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const float z : {0.0F, 2.0F})
-    for (const float north : {-y, y})
-      for (const float east : {-x, x}) mesh.vertices.emplace_back(east, north, z);
-  for (const auto& side : std::vector<std::array<std::uint32_t, 3>>{{0, 1, 3},
-                                                                    {0, 3, 2},
-                                                                    {0, 1, 5},
-                                                                    {0, 5, 4},
-                                                                    {1, 3, 7},
-                                                                    {1, 7, 5},
-                                                                    {3, 2, 6},
-                                                                    {3, 6, 7},
-                                                                    {2, 0, 4},
-                                                                    {2, 4, 6},
-                                                                    {4, 5, 7},
-                                                                    {4, 7, 6}})
-    mesh.triangles.push_back({first + side[0], first + side[1], first + side[2]});
+  const Mesh shell = prism_mesh({{-x, -y}, {x, -y}, {x, y}, {-x, y}}, 2.0).value();
+  mesh.vertices.insert(mesh.vertices.end(), shell.vertices.begin(), shell.vertices.end());
+  for (const auto& [a, b, c] : shell.triangles)
+    mesh.triangles.push_back({first + a, first + b, first + c});
 }
 
 WorldDescription ground_with(std::shared_ptr<const Mesh> mesh, double yaw) {
-  WorldDescription world;
-  world.name = "block";
-  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {14.0, 14.0, 0.1}));
+  WorldDescription world = ground(14.0, 14.0);
   Thing block = thing("block", ThingClass::other, {0, 0, 0}, {1, 1, 1});
   block.pose.rotate(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
   block.shapes[0].geometry = std::move(mesh);
@@ -177,7 +163,7 @@ TEST_F(ScenarioIn, is_not_drawn_inside_of_a_closed_block) {
   };
   for (const double yaw : {0.0, 0.3}) {
     auto shell = std::make_shared<Mesh>();
-    add_shell(*shell, 4.0F, 4.0F);
+    add_shell(*shell, 4.0, 4.0);
     enter(ground_with(shell, yaw));
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const StartAndGoal scenario = draw(seed);
@@ -191,12 +177,12 @@ TEST_F(ScenarioIn, is_not_drawn_inside_of_a_closed_block) {
 
 TEST_F(ScenarioIn, is_drawn_in_a_closed_mesh_that_is_a_room) {
   auto shell = std::make_shared<Mesh>();
-  add_shell(*shell, 4.0F, 4.0F);
+  add_shell(*shell, 4.0, 4.0);
   WorldDescription furnished = ground_with(shell, 0.0);
   furnished.things.push_back(thing("table", ThingClass::other, {1.0, 1.0, 0.4}, {1.0, 1.0, 0.8}));
-  add_shell(*shell, 5.0F, 5.0F);  // thick walls
+  add_shell(*shell, 5.0, 5.0);  // thick walls
   WorldDescription all_inside = ground_with(shell, 0.0);
-  all_inside.things[0] = thing("ground", ThingClass::floor, {0, 0, -0.05}, {7.0, 7.0, 0.1});
+  all_inside.things[0] = ground(7.0, 7.0).things[0];
   for (const WorldDescription& world : {furnished, ground_with(shell, 0.0), all_inside}) {
     enter(world);
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -208,9 +194,8 @@ TEST_F(ScenarioIn, is_drawn_in_a_closed_mesh_that_is_a_room) {
 }
 
 TEST_F(ScenarioIn, is_drawn_in_the_rooms_of_a_house_and_not_in_its_yard) {
-  WorldDescription world;  // three wings around a yard that is open to the south
-  world.name = "house";
-  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {40.0, 40.0, 0.1}));
+  WorldDescription world =
+      ground(40.0, 40.0);  // three wings around a yard that is open to the south
   const auto wall = [&](double x, double y, double length, double width) {
     world.things.push_back(thing("w", ThingClass::wall, {x, y, 1}, {length, width, 2.0}));
   };
@@ -297,9 +282,7 @@ TEST_F(ScenarioIn, is_drawn_off_the_lanes_of_what_moves_and_given_anywhere) {
 }
 
 TEST_F(ScenarioIn, is_drawn_on_the_lanes_where_there_is_nothing_else) {
-  WorldDescription world;
-  world.name = "alley";
-  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {20.0, 2.2, 0.1}));
+  WorldDescription world = ground(20.0, 2.2);
   world.things.push_back(shuttle({-8.0, 0.0}, {8.0, 0.0}));
   enter(world);
   const StartAndGoal scenario = draw(1);
@@ -308,9 +291,7 @@ TEST_F(ScenarioIn, is_drawn_on_the_lanes_where_there_is_nothing_else) {
 }
 
 TEST_F(ScenarioIn, is_refused_where_nothing_is_free) {
-  WorldDescription world;
-  world.name = "full";
-  world.things.push_back(thing("ground", ThingClass::floor, {0, 0, -0.05}, {2.0, 2.0, 0.1}));
+  WorldDescription world = ground(2.0, 2.0);
   world.things.push_back(thing("block", ThingClass::box, {0, 0, 0.5}, {1.9, 1.9, 1.0}));
   enter(world);
   EXPECT_THROW(static_cast<void>(draw(1)), WorldError);

@@ -12,13 +12,6 @@ namespace {
 
 const Disc kFar{{1000.0, 1000.0}, 0.35};
 
-Route through(const std::vector<Eigen::Vector2d>& corners, double speed = 1.0, double pause = 0.0) {
-  Route route;
-  for (const Eigen::Vector2d& corner : corners) route.waypoints.push_back({corner, pause});
-  route.speed = speed;
-  return route;
-}
-
 /// A forklift, alone.
 class Alone {
  public:
