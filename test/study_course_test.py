@@ -347,7 +347,7 @@ def test_kill_9_loses_no_row_that_was_acknowledged_and_doubles_none(tmp_path):
         told = len(rows)
 
 
-def test_a_full_disk_begins_nothing(work, monkeypatch):
+def test_D4_a_full_disk_begins_nothing(work, monkeypatch):
     monkeypatch.setattr(journal.os, "write", lambda file, line: len(line) // 2)
     begun = work()
     with pytest.raises(StudyError, match="cannot be written"):
