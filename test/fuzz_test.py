@@ -70,17 +70,17 @@ def study_journal(tmp_path_factory):
 @pytest.mark.parametrize("name, read", [
     ("plan.yaml", plan_of), ("tlx.yaml", questionnaire.load), ("journal.jsonl", rows_of), ("journal.csv", read_all),
     ("answers.jsonl", lambda path: journal.read_lines(path, {"text": str})), ("events.csv", journal.rows_of),
-    ("track.npy", lambda path: record.Record(path.parent).track())], ids=lambda value: value if isinstance(value, str) else "")
+    ("track.npy", lambda path: record.Record(path.parent).track()), ("rows-1.csv", lambda path: batch.done_in(path.parent))], ids=lambda value: value if isinstance(value, str) else "")
 def test_a_damaged_file_is_read_or_refused(name, read, tmp_path, study_journal):
     whole = {"plan.yaml": EXAMPLE.read_bytes(), "tlx.yaml": (PACKAGE / "studies/questionnaires/tlx.yaml").read_bytes(), "journal.csv": TRIAL,
-             "events.csv": TRIAL, "track.npy": TRACK}.get(name, study_journal)
+             "events.csv": TRIAL, "track.npy": TRACK, "rows-1.csv": b"1,easy,2\n2,easy,3\n"}.get(name, study_journal)
     (tmp_path / "questionnaires").symlink_to(PACKAGE / "studies/questionnaires")
     for number in range(FIRST, FIRST + ROUNDS):
         (tmp_path / name).write_bytes(damaged(whole, random.Random(number)))
-        with contextlib.suppress(StudyError):
+        with contextlib.suppress(StudyError, batch.BatchError):
             try:
                 read(tmp_path / name)
-            except StudyError as refusal:
+            except (StudyError, batch.BatchError) as refusal:
                 assert str(refusal).isprintable() or "\n" in str(refusal), (number, str(refusal))
                 raise
             except Exception as problem:
