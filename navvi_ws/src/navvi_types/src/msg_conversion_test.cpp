@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "fuzz_message.hpp"
 #include "navvi_types/limits.hpp"
 
 namespace navvi_types {
@@ -262,6 +263,59 @@ TEST(MsgConversion, EveryMessageSurvivesTheRoundTrip) {
   expect_same_after_round_trip(request);
 }
 
+/// What is taken is sent on, and taken there.
+template <typename Msg>
+void fuzz_round_trip(const Msg& whole) {
+  navvi_test::fuzz_message(whole, [](const Msg& msg) {
+    const auto value = from_msg(msg);
+    if (!value) return;
+    const Msg again = to_msg(*value);
+    const auto same = from_msg(again);
+    ASSERT_TRUE(same.has_value());
+    EXPECT_EQ(navvi_test::bytes_of(to_msg(*same)).size(), navvi_test::bytes_of(again).size());
+  });
+}
+
+TEST(FuzzMessages, C3_are_taken_or_dropped_and_taken_again_when_they_are_sent_on) {
+  fuzz_round_trip(twist());
+  fuzz_round_trip(odometry());
+  fuzz_round_trip(proximity());
+  fuzz_round_trip(contact());
+  fuzz_round_trip(obstacles());
+  fuzz_round_trip(guidance());
+  fuzz_round_trip(cue());
+  fuzz_round_trip(scenario());
+  fuzz_round_trip(state_hash());
+  fuzz_round_trip(drive_state());
+  fuzz_round_trip(link_state());
+  fuzz_round_trip(navvi_msgs::Zone());
+  fuzz_round_trip(navvi_msgs::TrialState());
+  fuzz_round_trip(navvi_msgs::TrialRequest());
+}
+
+TEST(FuzzMessages, C3_of_places_are_finite_where_they_are_taken) {
+  geometry_msgs::PoseStamped pose;
+  pose.pose.orientation = heading(0.5);
+  const auto is_finite = [](const auto& msg) {
+    const auto at = from_msg(msg);
+    EXPECT_TRUE(!at || at->allFinite());
+  };
+  navvi_test::fuzz_message(pose, is_finite);
+  navvi_test::fuzz_message(geometry_msgs::PointStamped(), is_finite);
+  nav_msgs::Path path;
+  path.poses = {pose, pose};
+  navvi_test::fuzz_message(path, [](const nav_msgs::Path& msg) {
+    for (const Eigen::Vector2d& point : from_msg(msg).value_or(std::vector<Eigen::Vector2d>()))
+      EXPECT_TRUE(point.allFinite());
+  });
+  geometry_msgs::Transform transform;
+  transform.rotation = heading(0.5);
+  navvi_test::fuzz_message(transform, [](const geometry_msgs::Transform& msg) {
+    const auto at = from_msg(msg);
+    EXPECT_TRUE(!at || std::isfinite(at->position.sum() + at->yaw));
+  });
+}
+
 TEST(MsgConversion, WhatIsNotKnownSurvivesTheRoundTrip) {
   navvi_msgs::Guidance msg = guidance();
   msg.mesh_age = msg.map_age = msg.blocked_for = -1.0;
@@ -286,7 +340,7 @@ TEST(MsgConversion, EmptyListsSurviveTheRoundTrip) {
   EXPECT_TRUE(path_msg({}, 0.0, kStamp).poses.empty());
 }
 
-TEST(MsgConversion, EveryNumberOfATwistIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfATwistIsChecked) {
   using Msg = geometry_msgs::Twist;
   expect_each_checked<Msg>(twist(), {{LEAF(Msg, linear.x), beyond(kFastest)},
                                      {LEAF(Msg, linear.y), beyond(kFastest)},
@@ -296,7 +350,7 @@ TEST(MsgConversion, EveryNumberOfATwistIsChecked) {
                                      {LEAF(Msg, angular.z), beyond(kFastest)}});
 }
 
-TEST(MsgConversion, EveryNumberOfATransformIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfATransformIsChecked) {
   using Msg = geometry_msgs::Transform;
   Msg sound;
   sound.rotation = heading(0.5);
@@ -311,7 +365,7 @@ TEST(MsgConversion, EveryNumberOfATransformIsChecked) {
   EXPECT_FALSE(from_msg(Msg()).has_value()) << "no rotation";
 }
 
-TEST(MsgConversion, EveryNumberOfAnOdometryIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfAnOdometryIsChecked) {
   using Msg = nav_msgs::Odometry;
   expect_each_checked<Msg>(odometry(), {{LEAF(Msg, pose.pose.position.x), beyond(kFarthest)},
                                         {LEAF(Msg, pose.pose.position.y), beyond(kFarthest)},
@@ -328,7 +382,7 @@ TEST(MsgConversion, EveryNumberOfAnOdometryIsChecked) {
                                         {LEAF(Msg, twist.twist.angular.z), beyond(kFastest)}});
 }
 
-TEST(MsgConversion, EveryNumberOfAProximityIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfAProximityIsChecked) {
   using Msg = navvi_msgs::Proximity;
   expect_each_checked<Msg>(proximity(),
                            {{LEAF(Msg, detection_radius), {-1.0, 0.0, 1.001 * kLongest}},
@@ -341,7 +395,7 @@ TEST(MsgConversion, EveryNumberOfAProximityIsChecked) {
   EXPECT_FALSE(from_msg(crowd).has_value());
 }
 
-TEST(MsgConversion, EveryNumberOfAContactIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfAContactIsChecked) {
   using Msg = navvi_msgs::Contact;
   expect_each_checked<Msg>(contact(), {{LEAF(Msg, point.x), beyond(kFarthest)},
                                        {LEAF(Msg, point.y), beyond(kFarthest)},
@@ -359,7 +413,7 @@ TEST(MsgConversion, EveryNumberOfAContactIsChecked) {
   EXPECT_FALSE(from_msg(none).has_value()) << "the first is 1";
 }
 
-TEST(MsgConversion, EveryNumberOfAnObstacleIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfAnObstacleIsChecked) {
   using Msg = navvi_msgs::Obstacles;
   expect_each_checked<Msg>(obstacles(),
                            {{LEAF(Msg, obstacles[0].pose.position.x), beyond(kFarthest)},
@@ -381,7 +435,7 @@ TEST(MsgConversion, EveryNumberOfAnObstacleIsChecked) {
   EXPECT_FALSE(from_msg(twins).has_value());
 }
 
-TEST(MsgConversion, EveryNumberOfAGuidanceIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfAGuidanceIsChecked) {
   using Msg = navvi_msgs::Guidance;
   const auto length = beyond_from_0(kLongest), duration = beyond_from_0(kLongestTime);
   const std::vector<double> or_none = {-0.5, -2.0, 1.001 * kLongestTime};
@@ -406,7 +460,7 @@ TEST(MsgConversion, EveryNumberOfAGuidanceIsChecked) {
                                         {LEAF(Msg, path_offset), length}});
 }
 
-TEST(MsgConversion, EveryNumberOfAScenarioIsChecked) {
+TEST(MsgConversion, C3_EveryNumberOfAScenarioIsChecked) {
   using Msg = navvi_msgs::Scenario;
   expect_each_checked<Msg>(scenario(), {{LEAF(Msg, goal.x), beyond(kFarthest)},
                                         {LEAF(Msg, places[0].at.x), beyond(kFarthest)},
