@@ -98,7 +98,7 @@ def test_shell_scripts_are_clean():
     (["check", "-x"], "missing: TRIAL"),
     (["check", "none/at/all"], "holds no trial.bag"),
 ])
-def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
+def test_P2_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     result = navvi(*words)
     assert result.returncode == 2
     assert sentence in result.stderr
@@ -245,7 +245,7 @@ def test_only_the_simulated_robot_is_held_to_one_level():
     assert climb("robot.launch", "rviz:=false") == []
 
 
-def test_a_parameter_that_is_taken_is_in_force():
+def test_P2_a_parameter_that_is_taken_is_in_force():
     """Of those that the session sets, such as sim/seed, ./navvi refuses what a <param> would win over."""
     given = {"sim": "wait_for_robot: false", "trial": "press_to_start: false, patience: 5.0, contacts: unknown, require: [speech]"}
     dump = subprocess.run(["roslaunch", "--dump-params", str(ROOT / "launch/live.launch"), "rviz:=false",
@@ -267,7 +267,7 @@ NODES = [("navvi_sim", "sim_node"), ("navvi_nav", "nav_node"), ("navvi_feedback"
 
 
 @pytest.mark.parametrize("package, node", NODES, ids=lambda word: word)
-def test_a_node_refuses_an_unknown_parameter_and_starts_nothing(package, node, master):
+def test_P2_a_node_refuses_an_unknown_parameter_and_starts_nothing(package, node, master):
     result = subprocess.run(["rosrun", package, node, "_no_such_key:=1"], capture_output=True, text=True, timeout=30,
                             env=master)
     assert result.returncode == 2

@@ -3,11 +3,13 @@ import os
 import re
 import resource
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parent.parent
+from sessions import ROOT, within
+
 LIB = ROOT / "navvi_ws/devel/lib"
 MEMORY = 1 << 30  # bytes; the programs alone take 100 to 300 MB of it
 SECONDS = 30
@@ -100,15 +102,17 @@ def bounded():
 
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_P1_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path):
+def test_P1_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path, record_property):
     ending, command = KINDS[kind]
     file = tmp_path / f"given{ending}"
     FAULTS[fault](file)
     words, more = command(file)
     if kind == "person" and fault == "no file" or kind == "world of a plan" and file.is_file():
         pytest.skip("a new name begins a new file; what is in a world is read when it is driven in")
+    begin = time.monotonic()
     done = subprocess.run(["bash", "-c", f"source {ROOT}/navvi_ws/devel/setup.bash && exec \"$@\"", "bash", *words], env=dict(os.environ, **more), text=True,
                           errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=SECONDS, preexec_fn=bounded, check=False)
+    within(record_property, "refused", time.monotonic() - begin, 2.0)
     said = done.stdout + done.stderr
     assert done.returncode == 2, said[-2000:]
     assert "Traceback" not in said and "bad_alloc" not in said and SECRET not in said

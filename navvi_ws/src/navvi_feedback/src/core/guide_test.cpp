@@ -107,7 +107,7 @@ TEST_F(GuideTest, says_once_that_another_node_wants_to_drive) {
   EXPECT_EQ(std::count(told_.begin(), told_.end(), Content(CueKind::notice, About::intruder)), 1);
 }
 
-TEST_F(GuideTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
+TEST_F(GuideTest, J1_a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
   pass(0.5);
   hold(0.0, 1.0);
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
@@ -423,7 +423,7 @@ class SidesTest : public GuideTest {
   double side_ = 0.0;
 };
 
-TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
+TEST_F(SidesTest, F7_are_asked_for_first_and_kept_with_the_sound_device) {
   EXPECT_EQ(wait(2.0), "");
   EXPECT_TRUE(said(CueKind::which_side));
   EXPECT_EQ(guide_.order().value().kind(), CueKind::which_side);
@@ -436,7 +436,7 @@ TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
   EXPECT_FALSE(guide_.learnt().value().words_lead);
 }
 
-TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
+TEST_F(SidesTest, F7_that_are_wrong_are_told_and_words_lead) {
   wait(2.0);
   hold(-side_, 0.0);
   EXPECT_EQ(wait(1.0), "");
@@ -560,7 +560,7 @@ TEST_F(GuideTest, what_is_near_is_felt_while_it_is_fresh) {
   EXPECT_EQ(stale.right, 0.0);
 }
 
-TEST_F(GuideTest, the_motors_report_a_missing_audio_device_once_there_are_some) {
+TEST_F(GuideTest, F1_the_motors_report_a_missing_audio_device_once_there_are_some) {
   for (const Link missing : {Link::never, Link::lost}) {
     input_.audio = missing;
     input_.motors = false;

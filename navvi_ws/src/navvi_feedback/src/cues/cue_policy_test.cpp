@@ -219,7 +219,7 @@ TEST_F(CuePolicyTest, words_directions_by_left_and_right_where_that_is_wanted) {
   EXPECT_EQ(pass(1.0), (Texts{"turn left, 20 meters", "the goal is 20 meters along the path"}));
 }
 
-TEST_F(CuePolicyTest, does_not_chatter_on_a_quiet_drive) {
+TEST_F(CuePolicyTest, N7_does_not_chatter_on_a_quiet_drive) {
   under_way();
   EXPECT_LE(pass(60.0).size(), 8U);
 }

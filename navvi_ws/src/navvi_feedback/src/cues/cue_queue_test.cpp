@@ -168,7 +168,7 @@ TEST(CueQueue, never_cuts_an_important_one) {
       (Words{"queued b", "queued c"}));
 }
 
-TEST(CueQueue, drops_what_waited_too_long) {
+TEST(CueQueue, F5_drops_what_waited_too_long) {
   CueQueue queue;
   (void)queue.update({cue("a", Priority::important)}, false, 0.0);
   (void)queue.update({cue("b", Priority::text, 1.0)}, true, 0.1);

@@ -69,7 +69,7 @@ TEST(Planner, refuses_a_goal_that_is_not_finite) {
   }
 }
 
-TEST(Planner, tells_the_refusals_apart) {
+TEST(Planner, N3_tells_the_refusals_apart) {
   SmallWorld world;
   world.room(12, 6).box(6, 0, 0, 6.1, 6, 1).box(2, 2, 0, 3, 3, 1);
   Planner planner = planner_on(world);
@@ -81,7 +81,7 @@ TEST(Planner, tells_the_refusals_apart) {
   EXPECT_EQ(planner.plan({1, 1}, {5, 5}).status, PlanStatus::found);
 }
 
-TEST(Planner, calls_a_goal_not_seen_where_nothing_is_known_and_not_where_something_stands) {
+TEST(Planner, N3_calls_a_goal_not_seen_where_nothing_is_known_and_not_where_something_stands) {
   SmallWorld world;
   world.floor(0, 0, 6, 6).box(4, 4, 0, 5, 5, 1).floor(9, 0, 10, 6);
   Planner planner = planner_on(world);
@@ -142,7 +142,7 @@ TEST(Planner, calls_a_way_to_the_end_of_the_map_closed_and_the_end_stays) {
   EXPECT_NEAR(plan->path.back().x, 7.65, 0.1);
 }
 
-TEST(Planner, says_off_mesh_where_no_path_can_begin) {
+TEST(Planner, N4_says_off_mesh_where_no_path_can_begin) {
   SmallWorld world;
   world.room(12, 8).box(2, 2, 0, 6, 6, 1);
   Planner planner = planner_on(world);
@@ -194,7 +194,7 @@ TEST(Planner, ends_exactly_at_the_goal_even_in_the_last_cell_before_a_wall) {
   expect_clear(plan.path, world, {});
 }
 
-TEST(Planner, survives_start_and_goal_in_one_place) {
+TEST(Planner, N5_survives_start_and_goal_in_one_place) {
   SmallWorld world;
   world.room(8, 8);
   const Plan plan = planner_on(world).plan({4, 4}, {4, 4});
