@@ -85,7 +85,7 @@ def test_a_world_of_any_name_is_a_row_and_a_torn_one_is_run_again(tmp_path):
         run_batch(stand_in(tmp_path), args_of(tmp_path / "b", worlds="a\nb"))
 
 
-def test_a_full_disk_names_the_file(tmp_path, monkeypatch):
+def test_D4_a_full_disk_names_the_file(tmp_path, monkeypatch):
     def full(file):
         raise OSError(28, "No space left on device")
     monkeypatch.setattr(batch.os, "fsync", full)

@@ -87,7 +87,7 @@ def test_shell_scripts_are_clean():
     (["check", "none/at/all"], "holds no trial.bag"),
 ])
 @pytest.mark.accessibility
-def test_a_wrong_word_is_refused_with_a_sentence(words, sentence):
+def test_P2_a_wrong_word_is_refused_with_a_sentence(words, sentence):
     result = navvi(*words)
     assert result.returncode == 2
     [said] = sentences(result)
@@ -225,7 +225,7 @@ def test_only_the_simulated_robot_is_held_to_one_level():
     assert climb("robot.launch") is None
 
 
-def test_a_parameter_that_is_taken_is_in_force():
+def test_P2_a_parameter_that_is_taken_is_in_force():
     """Of those that the session sets, such as sim/seed, ./navvi refuses what a <param> would win over."""
     given = {"sim": "wait_for_robot: false", "trial": "press_to_start: false, patience: 5.0, contacts: unknown, require: [speech]"}
     values = yaml.safe_load(roslaunch("--dump-params", "live.launch", "rviz:=false", *(f"{part}_parameters:={{{words}}}" for part, words in given.items())))
@@ -245,7 +245,7 @@ NODES = [("navvi_sim", "sim_node"), ("navvi_nav", "nav_node"), ("navvi_feedback"
 
 
 @pytest.mark.parametrize("package, node", NODES, ids=lambda word: word)
-def test_a_node_refuses_an_unknown_parameter_and_starts_nothing(package, node, master):
+def test_P2_a_node_refuses_an_unknown_parameter_and_starts_nothing(package, node, master):
     result = subprocess.run(["rosrun", package, node, "_no_such_key:=1"], capture_output=True, text=True, timeout=30,
                             env=master)
     assert result.returncode == 2

@@ -2,12 +2,13 @@
 import os
 import re
 import resource
+import time
 from pathlib import Path
 
 import pytest
 
 import small_study
-from sessions import ROOT, sourced
+from sessions import ROOT, sourced, within
 
 LIB = ROOT / "navvi_ws/devel/lib"
 MEMORY = 1 << 30  # bytes; the programs alone take 100 to 300 MB of it
@@ -92,14 +93,16 @@ def bounded():
 
 @pytest.mark.parametrize("fault", FAULTS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_P1_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path):
+def test_P1_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path, record_property):
     ending, command = KINDS[kind]
     file = tmp_path / f"given{ending}"
     FAULTS[fault](file)
     words, more = command(file)
     if kind == "person" and fault == "no file" or kind == "world of a plan" and file.is_file():
         pytest.skip("a new name begins a new file; what is in a world is read when it is driven in")
+    begin = time.monotonic()
     done = sourced(*words, env=dict(os.environ, **more), errors="replace", timeout=SECONDS, preexec_fn=bounded)
+    within(record_property, "refused", time.monotonic() - begin, 2.0)
     said = done.stdout + done.stderr
     assert done.returncode == 2, said[-2000:]
     assert "Traceback" not in said and "bad_alloc" not in said and SECRET not in said

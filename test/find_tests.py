@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Prints the programs of ctest that hold a test case whose name contains a word, one a line.
+"""Prints the programs of ctest that hold a test case in whose name a pattern is found, one a line.
 
-find_tests.py WORD: from the sources, so that nothing has to be built before a wrong word is rejected. Exit code 1 if neither a case nor
+find_tests.py PATTERN: from the sources, so that nothing has to be built before a wrong word is rejected. Exit code 1 if neither a case nor
 a program has that name.
 """
 import pathlib
@@ -15,14 +15,14 @@ SYSTEM_CASE = re.compile(r"^ *def (test_\w+)|^ *ids=\[(.*)\]|, ids=\[(.*)\]", re
 
 def programs(word, root=ROOT):
     for file in sorted((root / "navvi_ws/src").glob("*/src/**/*_test.cpp")):
-        if any(word in f"{suite}.{name}" for suite, name in CASE.findall(file.read_text())):
+        if any(re.search(word, f"{suite}.{name}") for suite, name in CASE.findall(file.read_text())):
             package, _, *rooms = file.relative_to(root / "navvi_ws/src").parts
             yield f"{package}/{'/'.join(rooms)}".removesuffix("_test.cpp")
     for file in sorted((root / "navvi_ws/src").glob("*/test/*_node_test.cpp")):
-        if any(word in f"{suite}.{name}" for suite, name in CASE.findall(file.read_text())):
+        if any(re.search(word, f"{suite}.{name}") for suite, name in CASE.findall(file.read_text())):
             yield f"_ctest_{file.parent.parent.name}_rostest_test_{file.name.removesuffix('_test.cpp')}.test"
     for file in sorted((root / "test").glob("*_test.py")):
-        if any(word in "".join(names) for names in SYSTEM_CASE.findall(file.read_text())):
+        if any(re.search(word, "".join(names)) for names in SYSTEM_CASE.findall(file.read_text())):
             yield file.name.removesuffix("_test.py")
 
 

@@ -1,5 +1,7 @@
-"""Damaged files of a study and of a batch: each reader reads them, or refuses them with a sentence. NAVVI_FUZZ: how many of each kind."""
+"""Damaged files of a study and of a batch: each reader reads them, or refuses them with a sentence. NAVVI_FUZZ: how many of each kind, and the
+number of the first. And disks that fail, and programs that are killed, at each call of what writes such files."""
 import contextlib
+import errno
 import os
 import random
 import struct
@@ -7,10 +9,11 @@ import struct
 import pytest
 
 from small_study import EXAMPLE, PACKAGE
-from navvi_study import journal, plan_file, questionnaire, record
+from navvi_study import journal, plan_file, questionnaire, record, study
+from navvi_people import batch
 from navvi_study.errors import StudyError
 
-ROUNDS = int(os.environ.get("NAVVI_FUZZ", "300"))
+ROUNDS, FIRST = map(int, (os.environ.get("NAVVI_FUZZ", "300") + " 0").split()[:2])
 TOKENS = [b"nan", b"-1", b"1e308", b"9" * 30, b"", b" ", b"\n", b"\0", b"\xff\xfe", b"\xc2\xb2", b"{", b"}", b"[" * 3000, b"\"", b":", b",", b";", b"=",
           b"- ", b"*a", b"&a ", b"!!python/object:os.system ", b"null", b"%s"]
 
@@ -64,18 +67,100 @@ def study_journal(tmp_path_factory):
 @pytest.mark.parametrize("name, read", [
     ("plan.yaml", plan_of), ("tlx.yaml", questionnaire.load), ("journal.jsonl", rows_of), ("journal.csv", read_all),
     ("answers.jsonl", lambda path: journal.read_lines(path, {"text": str})), ("events.csv", journal.rows_of),
-    ("track.npy", lambda path: record.Record(path.parent).track())], ids=lambda value: value if isinstance(value, str) else "")
+    ("track.npy", lambda path: record.Record(path.parent).track()), ("rows-1.csv", lambda path: batch.done_in(path.parent))], ids=lambda value: value if isinstance(value, str) else "")
 def test_a_damaged_file_is_read_or_refused(name, read, tmp_path, study_journal):
     whole = {"plan.yaml": EXAMPLE.read_bytes(), "tlx.yaml": (PACKAGE / "studies/questionnaires/tlx.yaml").read_bytes(), "journal.csv": TRIAL,
-             "events.csv": TRIAL, "track.npy": TRACK}.get(name, study_journal)
+             "events.csv": TRIAL, "track.npy": TRACK, "rows-1.csv": b"1,easy,2\n2,easy,3\n"}.get(name, study_journal)
     (tmp_path / "questionnaires").symlink_to(PACKAGE / "studies/questionnaires")
-    for number in range(ROUNDS):
+    for number in range(FIRST, FIRST + ROUNDS):
         (tmp_path / name).write_bytes(damaged(whole, random.Random(number)))
-        with contextlib.suppress(StudyError):
+        with contextlib.suppress(StudyError, batch.BatchError):
             try:
                 read(tmp_path / name)
-            except StudyError as refusal:
+            except (StudyError, batch.BatchError) as refusal:
                 assert str(refusal).isprintable() or "\n" in str(refusal), (number, str(refusal))
                 raise
             except Exception as problem:
                 raise AssertionError(f"number {number} of {name}") from problem
+
+
+class Disk:
+    """The system's calls, of which one meets a fault: the program is killed before, after or amid it, it is short, or has an error."""
+
+    def __init__(self, fault="", at=0):
+        self.fault, self.at, self.count = fault, at, 0
+
+    def __getattr__(self, name):
+        call = getattr(os, name) if name != "fsync" else lambda file: None
+        return (lambda *words: self.meet(call, *words)) if name in ("open", "write", "fsync", "ftruncate", "replace") else call
+
+    def meet(self, call, *words):
+        self.count += 1
+        if self.count != self.at:
+            return call(*words)
+        if self.fault in (errno.EIO, errno.ENOSPC):
+            raise OSError(self.fault, os.strerror(self.fault))
+        if self.fault in ("amid", "short") and call is os.write:
+            words = words[0], words[1][:len(words[1]) // 2]
+        done = None if self.fault == "before" else call(*words)
+        if self.fault != "short":
+            os._exit(9)
+        return done
+
+
+def append_row(path, number):
+    with contextlib.closing(batch.Rows(path)) as rows:
+        rows.append(f"{number},some\n")
+
+
+#: How a file is written and read: answers and notes, rows of the study, of a batch, a file as a whole.
+WRITTEN = {
+    "notes.jsonl": (lambda path, number: journal.append_line(path, {"n": number}), lambda path: [row["n"] for row in journal.read_lines(path, {"n": int})[0]]),
+    "journal.jsonl": (lambda path, number: journal.Journal(path).append("NOTE", n=number), lambda path: [row["n"] for row in journal.Journal(path).rows()]),
+    "rows-1.csv": (append_row, lambda path: sorted(batch.done_in(path.parent))),
+    "plan.yaml": (lambda path, number: study.write_safely(path, f"{number}\n" * 9), lambda path: [int(line) for line in journal.lines_of(path)[:-1]][-1:]),
+}
+
+
+def write_all(path, write, disk, known):
+    """Three rows, where none ends the program; tells a pipe of each that is known to be safe. Returns the number of the calls."""
+    for module in (journal, study, batch):
+        module.os = disk
+    for number in range(1, 4):
+        with contextlib.suppress(StudyError):
+            write(path, number)
+            os.write(known, b"%d" % number)
+    for module in (journal, study, batch):
+        module.os = os
+    return disk.count
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+@pytest.mark.parametrize("fault", ["before", "amid", "after", "short", errno.EIO, errno.ENOSPC])
+def test_L3_what_is_known_to_be_written_stays_and_what_was_refused_does_not(name, fault, tmp_path):
+    write, read = WRITTEN[name]
+    known, told = os.pipe()
+    path = tmp_path / name
+    calls = write_all(path, write, Disk(), told)
+    assert read(path)[-1] == 3 and os.read(known, 9) == b"123" and calls >= 6
+    for at in range(1, calls + 1):
+        path = tmp_path / str(at) / name
+        path.parent.mkdir()
+        child = os.fork()
+        if child == 0:
+            try:
+                write_all(path, write, Disk(fault, at), told)
+            finally:
+                os._exit(0)
+        os.waitpid(child, 0)
+        os.write(told, b"\n")
+        safe = [int(digit) for digit in os.read(known, 9).decode().strip()]
+        left = read(path) if path.exists() else []
+        if name == "plan.yaml":
+            assert max(left, default=0) >= max(safe, default=0), (at, "the old one or the new one")
+            continue
+        more = [number for number in left if number not in safe]
+        assert sorted(left) == sorted({*safe, *left}), (at, safe, left)
+        assert not more or more == [len(safe) + 1] and (fault in ("before", "amid", "after") or name == "rows-1.csv"), (at, safe, left)
+        write(path, 4)
+        assert read(path) == [*left, 4], at

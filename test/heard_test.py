@@ -31,7 +31,7 @@ def test_words_are_started_where_there_is_a_device(master, tmp_path):
     assert STARTED in stages(master, tmp_path, "wave")
 
 
-def test_words_without_a_device_were_dropped(master, tmp_path):
+def test_F1_words_without_a_device_were_dropped(master, tmp_path):
     found = stages(master, tmp_path, "none")
     assert set(found) == {QUEUED, DROPPED}
 

@@ -94,7 +94,7 @@ def test_topics_have_the_names_of_the_picture(session):
     assert TOPICS <= session.seen_topics
 
 
-def test_nothing_listens_beyond_the_loopback_interface(session):
+def test_M3_nothing_listens_beyond_the_loopback_interface(session):
     ours = [line for line in session.sockets if re.search(r'"(sim_node|nav_node|feedback_node|trial_node|rviz)"', line)]
     assert ours
     for line in ours:
@@ -167,7 +167,7 @@ def check(trial):
     return subprocess.run(["rosrun", "navvi_study", "check_trial", str(trial)], text=True, capture_output=True, timeout=120)
 
 
-def test_the_record_repeats_the_simulation_bit_for_bit(trial, tmp_path):
+def test_S6_the_record_repeats_the_simulation_bit_for_bit(trial, tmp_path):
     result = check(trial)
     assert result.returncode == 0 and result.stdout.startswith("equal"), result.stdout + result.stderr
     # One command that was the least bit different does not go unnoticed.

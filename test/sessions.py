@@ -25,6 +25,14 @@ def eventually(condition, seconds=60):
     return found
 
 
+def within(record_property, what, seconds, bound):
+    """A bound of doc/faults.md on the wall clock in s, at least doubled where more runs than there are processors. `./navvi test faults` prints
+    the time."""
+    record_property(what, f"{1000 * seconds:.0f} of {1000 * bound:.0f} ms")
+    crowd = os.getloadavg()[0] / os.cpu_count()
+    assert seconds <= bound * (max(2.0, crowd) if crowd > 1.0 else 1.0), what
+
+
 def script(path):
     """A program without an ending, as a module."""
     sys.dont_write_bytecode = True

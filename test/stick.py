@@ -5,8 +5,10 @@
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
        stage held the wheels at zero, the time until the robot stood still, and the fastest speed in the 5 s after that.
-halt   likewise, then halts feedback_node for 3 s; prints the kinds of what it says until it tells what became of the wheels.
-pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the fastest speed from 0.5 s to 3 s after it lives again.
+halt   likewise, then halts feedback_node for 3 s; prints the time in s until the wheels were held, and the kinds of what it says until it tells
+       what became of them.
+pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the time in s until that is said, and the fastest speed from 0.5 s
+       to 3 s after it lives again.
 intrude  a neutral stick while this process itself commands full speed to /navvi/command, at 1 kHz; prints the fastest speed within 3 s, the
        fastest with the stick pushed while it goes on, and the node that drive_state names.
 forge  this process commands a turn to /navvi/command under the name of feedback_node while the stick is pushed; prints the fastest motion, in m/s or
@@ -52,7 +54,7 @@ class Stick:
     def note_stop(self, msg):
         self.intruder = msg.intruder
         if msg.state == DriveState.STOPPED:
-            self.stopped = time.monotonic()
+            self.stopped = self.stopped or time.monotonic()
 
     def hold(self, forward, until, seconds):
         """Holds the stick until the condition is met or the time is over; returns whether it was met."""
@@ -86,12 +88,15 @@ class Stick:
         return max(speeds)
 
     def pause(self):
-        pid = self.pid("/sim_node")
+        pid, told = self.pid("/sim_node"), []
+        rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.kind == "simulator_lost" and told.append(time.monotonic()))
+        self.hold(1.0, lambda: False, 0.5)
+        halted = time.monotonic()
         os.kill(pid, signal.SIGSTOP)
         self.hold(1.0, lambda: False, 2.0)
         os.kill(pid, signal.SIGCONT)
         self.hold(1.0, lambda: False, 0.5)
-        return (self.fastest(1.0, 2.5),)
+        return told[0] - halted, self.fastest(1.0, 2.5)
 
     def intrude(self):
         self.hold(0.0, lambda: False, 1.0)
@@ -163,13 +168,16 @@ class Stick:
         return len(open_ones), min(slowest), max(grown)
 
     def halt(self):
-        pid, said = self.pid("/feedback_node"), []
+        pid, said, self.stopped = self.pid("/feedback_node"), [], None
+        halted = time.monotonic()
         os.kill(pid, signal.SIGSTOP)
-        self.hold(1.0, lambda: False, 3.0)
+        self.hold(1.0, lambda: self.stopped is not None, 3.0)
+        held = self.stopped - halted
+        self.hold(1.0, lambda: False, 3.0 - held)
         rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and cue.stage == Cue.QUEUED and said.append(cue.kind))
         os.kill(pid, signal.SIGCONT)
         self.hold(1.0, lambda: "robot_stopped" in said or "release_stick" in said, 20.0)
-        return tuple(said)
+        return held, *said
 
     def kill(self):
         pid = self.pid("/feedback_node")

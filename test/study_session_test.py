@@ -62,7 +62,7 @@ def counted(done):
     return [row for row in done.table() if row["counts"] == "yes"]
 
 
-def test_nothing_is_lost_and_nothing_is_doubled(done):
+def test_D3_nothing_is_lost_and_nothing_is_doubled(done):
     begun = [(row["participant"], row["step"], row["attempt"]) for row in done.rows() if row["type"] == "begin"]
     ended = [(row["participant"], row["step"], row["attempt"]) for row in done.rows() if row["type"] == "end"]
     assert begun == ended and len(begun) == len(set(begun)) == 5

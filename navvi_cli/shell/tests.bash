@@ -33,7 +33,7 @@ tests() {  # TIER [FILTER]
     selected[3]="^($(/usr/bin/python3 "$root/test/find_tests.py" "$filter" | paste -sd '|'))\$"
     ctest -N "${selected[@]}" | grep -q 'Total Tests: [1-9]' ||
       fail "no test of the tier $tier has \"$filter\" in its name; another tier may." 2
-    export NAVVI_TEST_CASE=$filter GTEST_FILTER="*$filter*" PYTEST_ADDOPTS="-k $filter"
+    export NAVVI_TEST_CASE=$filter GTEST_FILTER="*${filter//|/*:*}*" PYTEST_ADDOPTS="-k '${filter//|/ or }'"
   fi
   # Twice as many as there are processors: what computes counts as two (PROCESSORS).
   with_progress "testing" "$log" tests_percent /usr/bin/python3 "$root/test/run_tests.py" "$results.xml" -j"$((2 * $(nproc)))" "${selected[@]}" || true
@@ -44,6 +44,23 @@ tests() {  # TIER [FILTER]
   echo "The output of the tests is in $log."
   /usr/bin/python3 "$root/test/count_results.py" "$results.xml" "$results" || status=$?
   return "$status"
+}
+
+# The tests of a row of doc/faults.md, or of all rows, once more; prints what all such runs since the build have measured.
+fault_rows() {  # [ROW]
+  local rows status=0
+  rows=$(grep -oP '^\| \K[A-Z]\d+(?= )' "$root/doc/faults.md" | grep -x "${1:-.*}" | sort -u | sed 's/$/_/' | paste -sd '|') || true
+  [[ -n $rows ]] || fail "doc/faults.md has no row \"$1\"." 2
+  tests release "$rows" || status=$?
+  /usr/bin/python3 "$root/test/fault_rows.py" "$workspace/build/fault_rows.csv" "$workspace/build/test_results"
+  return "$status"
+}
+
+# Damaged bytes to all readers, with sanitizers, beside whatever else runs, until so many hours of the processor were given since ever.
+fuzz_hours() {  # [HOURS]
+  install_packages all
+  build_workspace --asan core_tests
+  exec nice -n 19 /usr/bin/python3 "$root/test/fuzz_hours.py" "$workspace/build_asan" "$workspace/fuzz.log.csv" "$@"
 }
 
 # "12/40 Test #7: NAME ...": a part of a package, such as navvi_sim/live/world, takes a twentieth of the time of others.

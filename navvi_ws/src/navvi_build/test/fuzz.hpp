@@ -76,21 +76,19 @@ class Mutator {
   std::mt19937_64 random_;
 };
 
-/// Gives damaged files to a reader: each is read, or refused by sentences fit for a terminal. A reader that crashes, hangs or
+/// Gives damaged bytes to a reader: each is read, or refused by sentences fit for a terminal. A reader that crashes, hangs or
 /// throws anything else fails. $NAVVI_FUZZ has how many (a few without it) and, after a space, the number of the first.
-/// \param corpus  whole files \param name  of the file \param read  its path is given
-inline void fuzz(const std::vector<std::string>& corpus, const std::string& name,
-                 const std::function<void(const std::string& path)>& read) {
+/// \param corpus  what is whole
+inline void fuzz_bytes(const std::vector<std::string>& corpus,
+                       const std::function<void(const std::string& bytes)>& read) {
   const char* const given = std::getenv("NAVVI_FUZZ");
   char* more = nullptr;
   const unsigned long rounds = given == nullptr ? 300 : std::strtoul(given, &more, 10);
   const unsigned long first = more == nullptr ? 0 : std::strtoul(more, nullptr, 10);
   for (unsigned long seed = first; seed < first + rounds; ++seed) {
-    const TempFolder folder;
-    const std::string path = folder.write(name, Mutator(corpus, static_cast<unsigned>(seed)).next());
     testing::Test::RecordProperty("last", static_cast<int>(seed));
     try {
-      read(path);
+      read(Mutator(corpus, static_cast<unsigned>(seed)).next());
     } catch (const std::runtime_error& refusal) {
       const std::string sentence = refusal.what();
       const auto is_control = [](unsigned char c) { return (c < ' ' && c != '\n') || c == 0x7f; };
@@ -103,6 +101,15 @@ inline void fuzz(const std::vector<std::string>& corpus, const std::string& name
     }
     if (testing::Test::HasFailure()) return;
   }
+}
+
+/// Likewise, damaged files. \param name  of the file \param read  its path is given
+inline void fuzz(const std::vector<std::string>& corpus, const std::string& name,
+                 const std::function<void(const std::string& path)>& read) {
+  fuzz_bytes(corpus, [&](const std::string& bytes) {
+    const TempFolder folder;
+    read(folder.write(name, bytes));
+  });
 }
 
 }  // namespace navvi_test

@@ -2,11 +2,12 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <regex>
 #include <string>
 
 /// The names of the tests that stand in a source file, as gtest's filter; empty if there are none.
 /// \param file  the end of its path, such as "src/live/world_test.cpp"
-/// \param part  of the names; empty: all
+/// \param part  a pattern of the names; empty: all
 static std::string tests_in(const std::string& file, const std::string& part) {
   std::string filter;
   const testing::UnitTest& all = *testing::UnitTest::GetInstance();
@@ -17,14 +18,14 @@ static std::string tests_in(const std::string& file, const std::string& part) {
       const std::string path = test.file();
       if (path.size() < file.size() || path.compare(path.size() - file.size(), file.size(), file)) continue;
       const std::string name = std::string(suite.name()) + "." + test.name();
-      if (name.find(part) != std::string::npos) filter += name + ":";
+      if (std::regex_search(name, std::regex(part))) filter += name + ":";
     }
   }
   return filter;
 }
 
-/// Runs a package's tests: with --file=src/ROOM/NAME_test.cpp those of one source file (of them, those whose name contains
-/// $NAVVI_TEST_CASE), else all, with gtest's own options.
+/// Runs a package's tests: with --file=src/ROOM/NAME_test.cpp those of one source file (of them, those in whose name
+/// the pattern $NAVVI_TEST_CASE is found), else all, with gtest's own options.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   const std::string option = "--file=";

@@ -72,7 +72,7 @@ TEST(Reader, keys_that_are_given_overlay_those_that_are_not) {
   EXPECT_EQ(config.inner.classes, (std::vector<std::string>{"shelf", "box"}));
 }
 
-TEST(Reader, every_bad_document_is_refused) {
+TEST(Reader, P1_every_bad_document_is_refused) {
   for (const char* yaml :
        {"speed: .nan", "speed: .inf", "speed: fast", "speed: [1]", "speed:", "count: 1.5",
         "count: 010", "count: 99999999999", "on: 7", "sped: 1", "inner: 3", "inner: {curve: exp}",
@@ -125,7 +125,7 @@ TEST(Reader, a_refusal_cites_no_control_character) {
   EXPECT_EQ(said.find('\x1b'), std::string::npos) << said;
 }
 
-TEST(Reader, a_missing_file_and_a_broken_file_are_told_apart) {
+TEST(Reader, P1_a_missing_file_and_a_broken_file_are_told_apart) {
   EXPECT_THROW((void)load_yaml("/nonexistent.yaml"), ConfigError);
   EXPECT_EQ(refusal_of_file("a: 1\n  b: 2\n"), "line 2: this is not YAML: illegal map value.");
   EXPECT_EQ(refusal_of_file(std::string(5000, '[')),

@@ -14,6 +14,7 @@ namespace navvi_config {
 namespace {
 
 constexpr rlim_t kFiles = 256;
+constexpr rlim_t kMemory = rlim_t{4} << 30U;  // bytes, of addresses
 
 std::atomic<bool> g_name_taken{false};
 
@@ -51,6 +52,15 @@ void allow_files() {
   if (limit.rlim_max >= kFiles && ::setrlimit(RLIMIT_NOFILE, &limit) == 0) return;
   throw ConfigError("Only " + std::to_string(allowed) + " files may be open at once; allowed is " +
                     std::to_string(kFiles) + " or more, such as by \"ulimit -n 1024\".");
+}
+
+void limit_memory() {
+#ifndef __SANITIZE_ADDRESS__
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur <= kMemory) return;
+  limit.rlim_cur = kMemory;
+  ::setrlimit(RLIMIT_AS, &limit);
+#endif
 }
 
 void ask_for_priority(int niceness) {

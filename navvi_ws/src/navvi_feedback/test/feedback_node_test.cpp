@@ -24,6 +24,8 @@
 #include <optional>
 #include <set>
 
+#include "measured.hpp"
+
 namespace {
 
 /// The world round the node: what a simulator, a planner and a stick would send, at 50 Hz.
@@ -196,7 +198,7 @@ TEST_F(FeedbackNode, C6_a_stick_that_comes_too_late_or_by_another_clock_moves_no
   EXPECT_TRUE(until([this] { return twist_.linear.x > 0.5; })) << "without a stamp";
 }
 
-TEST_F(FeedbackNode, says_that_the_emergency_stop_is_pressed_and_that_the_battery_is_low) {
+TEST_F(FeedbackNode, C8_says_that_the_emergency_stop_is_pressed_and_that_the_battery_is_low) {
   ros::Publisher stops = node_.advertise<std_msgs::Bool>("emergency_stop", 1);
   ros::Publisher batteries = node_.advertise<sensor_msgs::BatteryState>("battery", 1);
   ASSERT_TRUE(until([&] { return stops.getNumSubscribers() && batteries.getNumSubscribers(); }));
@@ -269,7 +271,7 @@ TEST_F(FeedbackNode, says_what_was_hit_but_nothing_of_a_contact_that_is_not_fini
   EXPECT_TRUE(until([this] { return heard("collision_shelf"); }));
 }
 
-TEST_F(FeedbackNode, says_the_direction_shows_the_path_and_takes_both_back_when_the_guide_is_lost) {
+TEST_F(FeedbackNode, N1_takes_direction_and_path_back_when_the_guide_is_lost) {
   path_msg_.poses.resize(2);
   path_msg_.poses[1].pose.position.y = -5.0;
   path_.publish(path_msg_);
@@ -286,8 +288,10 @@ TEST_F(FeedbackNode, says_the_direction_shows_the_path_and_takes_both_back_when_
   EXPECT_TRUE(until([this] { return shown_ >= 5; }));
 
   guidance_on_ = false;
+  const auto lost = navvi_test::Clock::now();
   EXPECT_TRUE(until([this] { return shown_ == 0; }, 3.0));
   EXPECT_TRUE(until([this] { return heard("guidance_lost"); }));
+  navvi_test::expect_within(1000, lost, "guidance lost");
 }
 
 TEST_F(FeedbackNode, says_where_the_robot_is_by_no_pose_that_is_stale) {

@@ -57,7 +57,7 @@ TEST(MapSurvey, takes_all_that_rises_five_centimetres_above_the_floor_for_an_obs
   EXPECT_EQ(ground_at(survey, 1.1, 1.1), Ground::obstacle);
 }
 
-TEST(MapSurvey, finds_no_floor_where_there_is_none_and_blocks_where_voxels_float) {
+TEST(MapSurvey, N10_finds_no_floor_where_there_is_none_and_blocks_where_voxels_float) {
   SmallWorld world;
   world.floor(0, 0, 4, 4).box(1, 1, 0.3, 1.05, 1.05, 0.35).box(2, 2, 0.8, 2.05, 2.05, 0.85);
   world.floor(5, 0, 6, 1);
@@ -187,7 +187,7 @@ TEST(MapSurvey, takes_the_level_on_which_the_robot_stands) {
   EXPECT_NEAR(survey_of(slab, config).floor_height, 0.05, 1e-9) << "a given height comes first";
 }
 
-TEST(MapSurvey, refuses_maps_that_are_empty_or_too_large) {
+TEST(MapSurvey, N10_refuses_maps_that_are_empty_or_too_large) {
   EXPECT_EQ(survey_map(Voxels{"", 0.05, {}}, {}).error, "the map has no occupied voxel");
   Voxels wide{"", 0.05, {{0, 0, 32768, 0, 1}, {65000, 65000, 32768, 0, 1}}};
   EXPECT_EQ(survey_map(wide, {}).error,

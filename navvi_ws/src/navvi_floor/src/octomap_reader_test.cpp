@@ -112,7 +112,7 @@ TEST(OctomapReader, refuses_bad_resolutions_and_other_trees) {
             "the map is of the kind \"CountingOcTree?\"; OcTree and ColorOcTree are allowed");
 }
 
-TEST(OctomapReader, refuses_a_stream_cut_anywhere) {
+TEST(OctomapReader, N9_refuses_a_stream_cut_anywhere) {
   for (const bool binary : {true, false}) {
     const Bytes data = stream_of(binary);
     for (std::size_t part = 0; part < 64; ++part)
@@ -190,7 +190,7 @@ TEST(OctomapReader,
   }
 }
 
-TEST(OctomapReader, refuses_or_reads_whatever_a_damaged_stream_has_become) {
+TEST(OctomapReader, N9_refuses_or_reads_whatever_a_damaged_stream_has_become) {
   int refused = 0, taken = 0;
   for (const bool binary : {true, false}) {
     const Bytes whole = stream_of(random_tree(3), binary);

@@ -19,6 +19,7 @@
 #include <functional>
 #include <limits>
 
+#include "measured.hpp"
 #include "small_world.hpp"
 
 namespace navvi_nav {
@@ -129,7 +130,7 @@ class NavNodeTest : public testing::Test {
   visualization_msgs::MarkerArray mesh_;
 };
 
-TEST_F(NavNodeTest, guides_refuses_and_replans) {
+TEST_F(NavNodeTest, N5_guides_refuses_and_replans) {
   EXPECT_TRUE(until([this] { return guidance_.state == navvi_msgs::Guidance::NO_MAP; }));
   send_map();
   ASSERT_TRUE(until([this] { return !mesh_.markers.empty(); }));
@@ -361,8 +362,10 @@ TEST_F(NavNodeTest, N6_more_obstacles_than_a_message_may_hold_are_announced) {
   one.radius = 0.1;
   one.height = 1.0;
   played_.obstacles.assign(10001, one);
+  const auto sent = navvi_test::Clock::now();
   EXPECT_TRUE(until(
       [this] { return guidance_.detail.find("the obstacles are rejected") != std::string::npos; }));
+  navvi_test::expect_within(2000, sent, "rejected");
   played_.obstacles.clear();
   EXPECT_TRUE(until(
       [this] { return guidance_.detail.find("the obstacles are rejected") == std::string::npos; }));
@@ -406,7 +409,7 @@ TEST_F(NavNodeTest, takes_its_goal_as_an_action_as_move_base_does) {
   EXPECT_TRUE(ends_as(State::SUCCEEDED)) << "the robot is there";
 }
 
-TEST_F(NavNodeTest, lives_on_after_garbage) {
+TEST_F(NavNodeTest, N9_lives_on_after_garbage) {
   octomap_msgs::Octomap map;
   map.header.frame_id = "map";
   map.binary = 1;

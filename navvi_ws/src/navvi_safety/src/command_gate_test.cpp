@@ -191,7 +191,7 @@ TEST_F(Gate, stays_stopped_until_the_stick_was_neutral_long_enough) {
   EXPECT_EQ(wheels_.linear, 1.0);
 }
 
-TEST_F(Gate, bad_commands_are_counted_and_extend_nothing) {
+TEST_F(Gate, C3_bad_commands_are_counted_and_extend_nothing) {
   start();
   const double inf = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -209,7 +209,7 @@ TEST_F(Gate, bad_commands_are_counted_and_extend_nothing) {
   EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_invalid);
 }
 
-TEST_F(Gate, a_command_from_the_future_is_rejected) {
+TEST_F(Gate, C9_a_command_from_the_future_is_rejected) {
   start();
   const unsigned before = gate_.rejected();
   delayed(0.3, Velocity{1.0, 0.0}, -0.31);
@@ -234,7 +234,7 @@ TEST_F(Gate, a_delay_that_is_not_felt_changes_nothing) {
   EXPECT_EQ(gate_.link_state(0).foresight, 0.0);
 }
 
-TEST_F(Gate, a_command_later_than_usual_drives_slowly_and_one_too_late_not_at_all) {
+TEST_F(Gate, C9_a_command_later_than_usual_drives_slowly_and_one_too_late_not_at_all) {
   delayed(6.0, Velocity{}, 0.2);
   delayed(0.1, Velocity{1.0, 1.0}, 0.45);
   EXPECT_EQ(wheels_.linear, 1.0);
@@ -249,7 +249,7 @@ TEST_F(Gate, a_command_later_than_usual_drives_slowly_and_one_too_late_not_at_al
   EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_lost);
 }
 
-TEST_F(Gate, a_burst_after_a_gap_never_drives) {
+TEST_F(Gate, C9_C10_a_burst_after_a_gap_never_drives) {
   for (const double gap : {0.3, 1.0, 5.0}) {
     delayed(6.0, Velocity{}, 0.1);
     delayed(1.0, Velocity{1.0, 0.0}, 0.1);
@@ -279,7 +279,7 @@ TEST(LinkMeter, counts_the_commands_that_never_came) {
   EXPECT_EQ(meter.state(0).loss, 0.0) << "the person's side was started anew";
 }
 
-TEST_F(Gate, a_command_beyond_the_limits_is_clamped_and_counted) {
+TEST_F(Gate, C4_a_command_beyond_the_limits_is_clamped_and_counted) {
   hold(0.4, Velocity{});
   hold(kStep, Velocity{-9.0, 9.0});
   EXPECT_EQ(wheels_.linear, -1.5);

@@ -13,6 +13,8 @@
 #include <limits>
 #include <navvi_types/msg_conversion.hpp>
 
+#include "measured.hpp"
+
 namespace {
 
 class Relay : public testing::Test {
@@ -138,9 +140,11 @@ TEST_F(Relay, C8_stands_while_the_emergency_stop_is_pressed_and_until_the_stick_
   ASSERT_TRUE(wait_until([&] { return emergency.getNumSubscribers() > 0; }));
   start();
   press(true);
+  const auto pressed = navvi_test::Clock::now();
   EXPECT_TRUE(drive_until(0.7, [&] {
     return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP;
   }));
+  navvi_test::expect_within(250, pressed, "stopped");
   // Neither a held nor a neutral stick moves the wheels, nor does one that is pushed after it.
   const auto stand = [&](double stick, double seconds) {
     const ros::WallTime begin = ros::WallTime::now();

@@ -16,6 +16,7 @@
 #include <iostream>
 #include <limits>
 #include <navvi_config/reader.hpp>
+#include <navvi_files/child_process.hpp>
 #include <navvi_people/loop/closed_loop.hpp>
 #include <navvi_types/angles.hpp>
 #include <regex>
@@ -25,7 +26,6 @@
 
 #include "batch/loop_trial.hpp"
 #include "batch/world_cache.hpp"
-#include "record/child_process.hpp"
 
 namespace navvi_study::bench {
 namespace {
@@ -255,7 +255,7 @@ int run(const BenchConfig& config) {
   else
     print_row("world", "seed", title);
   // A child a trial: a crash takes only its own trial away.
-  record::run_in_children(
+  navvi_files::run_in_children(
       worlds.size() * seeds, static_cast<std::size_t>(config.jobs),
       [&](std::size_t index) {
         const std::string text =
@@ -264,7 +264,7 @@ int run(const BenchConfig& config) {
         return text;
       },
       "the trial crashed",
-      [&](std::size_t index, const record::Answer& answer) {
+      [&](std::size_t index, const navvi_files::Answer& answer) {
         const Task task = task_of(index);
         const auto row = answer.good ? record::Fields::parse(answer.text) : std::nullopt;
         const std::string seed = std::to_string(task.seed);

@@ -221,7 +221,7 @@ class TrialNodeProcess : public testing::Test {
   const fs::path& out_ = folder_;
 };
 
-TEST_F(TrialNodeProcess, a_reached_goal_leaves_journal_events_summary_and_bag_that_agree) {
+TEST_F(TrialNodeProcess, R2_a_reached_goal_leaves_journal_events_summary_and_bag_that_agree) {
   World world;
   Process node(command());
   ASSERT_TRUE(run(world, [&] { return !node.running(); })) << "it did not end by itself";
@@ -268,7 +268,7 @@ TEST_F(TrialNodeProcess, the_state_is_repeated_with_the_time_at_which_the_trial_
   EXPECT_EQ(world.running.front(), world.running.back());
 }
 
-TEST_F(TrialNodeProcess, a_signal_closes_the_trial_as_aborted_and_keeps_its_bag) {
+TEST_F(TrialNodeProcess, L5_a_signal_closes_the_trial_as_aborted_and_keeps_its_bag) {
   World world;
   Process node(command());
   begin(world);
@@ -344,7 +344,7 @@ TEST_F(TrialNodeProcess, a_limit_ends_the_trial_in_ros_time) {
   EXPECT_EQ(summary_in(only_folder())["elapsed_s"], "1.000");
 }
 
-TEST_F(TrialNodeProcess, a_folder_that_cannot_be_made_refuses_the_trial) {
+TEST_F(TrialNodeProcess, L2_a_folder_that_cannot_be_made_refuses_the_trial) {
   World world;
   Process node({TRIAL_NODE, "_out:=/proc/trials"});
   ASSERT_TRUE(run(world, [&] { return !node.running(); }));

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "fuzz_message.hpp"
 #include "navvi_types/limits.hpp"
 
 namespace navvi_types {
@@ -324,6 +325,59 @@ TEST(MsgConversion, EveryMessageSurvivesTheRoundTrip) {
   expect_same_after_round_trip(request);
 }
 
+/// What is taken is sent on, and taken there.
+template <typename Msg>
+void fuzz_round_trip(const Msg& whole) {
+  navvi_test::fuzz_message(whole, [](const Msg& msg) {
+    const auto value = from_msg(msg);
+    if (!value) return;
+    const Msg again = to_msg(*value);
+    const auto same = from_msg(again);
+    ASSERT_TRUE(same.has_value());
+    EXPECT_EQ(navvi_test::bytes_of(to_msg(*same)).size(), navvi_test::bytes_of(again).size());
+  });
+}
+
+TEST(FuzzMessages, C3_are_taken_or_dropped_and_taken_again_when_they_are_sent_on) {
+  fuzz_round_trip(twist());
+  fuzz_round_trip(odometry());
+  fuzz_round_trip(proximity());
+  fuzz_round_trip(contact());
+  fuzz_round_trip(obstacles());
+  fuzz_round_trip(guidance());
+  fuzz_round_trip(cue());
+  fuzz_round_trip(scenario());
+  fuzz_round_trip(state_hash());
+  fuzz_round_trip(drive_state());
+  fuzz_round_trip(link_state());
+  fuzz_round_trip(navvi_msgs::Zone());
+  fuzz_round_trip(navvi_msgs::TrialState());
+  fuzz_round_trip(navvi_msgs::TrialRequest());
+}
+
+TEST(FuzzMessages, C3_of_places_are_finite_where_they_are_taken) {
+  geometry_msgs::PoseStamped pose;
+  pose.pose.orientation = heading(0.5);
+  const auto is_finite = [](const auto& msg) {
+    const auto at = from_msg(msg);
+    EXPECT_TRUE(!at || at->allFinite());
+  };
+  navvi_test::fuzz_message(pose, is_finite);
+  navvi_test::fuzz_message(geometry_msgs::PointStamped(), is_finite);
+  nav_msgs::Path path;
+  path.poses = {pose, pose};
+  navvi_test::fuzz_message(path, [](const nav_msgs::Path& msg) {
+    for (const Eigen::Vector2d& point : from_msg(msg).value_or(std::vector<Eigen::Vector2d>()))
+      EXPECT_TRUE(point.allFinite());
+  });
+  geometry_msgs::Transform transform;
+  transform.rotation = heading(0.5);
+  navvi_test::fuzz_message(transform, [](const geometry_msgs::Transform& msg) {
+    const auto at = from_msg(msg);
+    EXPECT_TRUE(!at || std::isfinite(at->position.sum() + at->yaw));
+  });
+}
+
 TEST(MsgConversion, WhatIsNotKnownSurvivesTheRoundTrip) {
   navvi_msgs::Guidance msg = guidance();
   msg.mesh_age = msg.map_age = msg.blocked_for = -1.0;
@@ -346,7 +400,7 @@ TEST(MsgConversion, EmptyListsSurviveTheRoundTrip) {
   EXPECT_TRUE(path_msg({}, 0.0, kStamp).poses.empty());
 }
 
-TEST(MsgConversion, EveryNumberOfATwistIsChecked) { expect_each_checked(twist()); }
+TEST(MsgConversion, C3_EveryNumberOfATwistIsChecked) { expect_each_checked(twist()); }
 
 TEST(MsgConversion, EveryNumberOfEachOtherMessageIsChecked) {
   const Values length = beyond_from_0(kLongest), duration = beyond_from_0(kLongestTime);

@@ -30,6 +30,10 @@ template <typename Config>
 /// hangs without a word
 void allow_files();
 
+/// To 4 GB: roscpp makes an array as long as a message says before it looks for its content, and then
+/// drops a message for which there is no memory.
+void limit_memory();
+
 /// Asks the system to run this program before others, so that a busy machine delays neither motors
 /// nor words. Call it before the program has threads; they inherit it. The kernel grants it to
 /// root, or by a limit (/etc/security/limits.d: "@audio - nice -10").
@@ -56,6 +60,7 @@ template <typename Config, typename Body>
   std::optional<ros::NodeHandle> alive;
   try {
     allow_files();
+    limit_memory();
     alive.emplace();
     on_shutdown_request(ros::requestShutdown);
     const int code = body(load<Config>(ros::NodeHandle("~")));

@@ -17,7 +17,7 @@ TEST_F(GuideTest, says_once_that_another_node_wants_to_drive) {
   EXPECT_EQ(count({CueKind::notice, About::intruder}), 1);
 }
 
-TEST_F(GuideTest, a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
+TEST_F(GuideTest, J1_a_stick_drives_once_it_was_neutral_and_its_loss_is_one_last_zero) {
   pass(0.5);
   hold(0.0, 1.0);
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);

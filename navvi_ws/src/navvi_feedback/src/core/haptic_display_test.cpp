@@ -24,7 +24,7 @@ class AlarmTest : public GuideTest {
   int alarms_ = 0;
 };
 
-TEST_F(AlarmTest, the_motors_report_a_missing_audio_device_once_there_are_some) {
+TEST_F(AlarmTest, F1_the_motors_report_a_missing_audio_device_once_there_are_some) {
   for (const Link missing : {Link::never, Link::lost}) {
     input_.audio = missing;
     input_.motors = false;

@@ -102,7 +102,7 @@ class SidesTest : public GuideTest {
   double side_ = 0.0;
 };
 
-TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
+TEST_F(SidesTest, F7_are_asked_for_first_and_kept_with_the_sound_device) {
   EXPECT_EQ(wait(2.0), "");
   EXPECT_TRUE(said(CueKind::which_side));
   EXPECT_EQ(guide_.order().value().kind(), CueKind::which_side);
@@ -116,7 +116,7 @@ TEST_F(SidesTest, are_asked_for_first_and_kept_with_the_sound_device) {
   EXPECT_TRUE(flows());
 }
 
-TEST_F(SidesTest, that_are_wrong_are_told_and_words_lead) {
+TEST_F(SidesTest, F7_that_are_wrong_are_told_and_words_lead) {
   wait(2.0);
   hold(-side_, 0.0);
   EXPECT_EQ(wait(1.0), "");

@@ -185,7 +185,7 @@ TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
   EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
 }
 
-TEST_F(CuePolicyTest, does_not_chatter_on_a_quiet_drive) {
+TEST_F(CuePolicyTest, N7_does_not_chatter_on_a_quiet_drive) {
   under_way();
   EXPECT_LE(pass(60.0).size(), 8U);
 }

@@ -165,7 +165,7 @@ TEST(CueQueue, says_drops_and_cuts_by_the_rules_of_the_table) {
   }
 }
 
-TEST(CueQueue, drops_what_waited_too_long) {
+TEST(CueQueue, F5_drops_what_waited_too_long) {
   CueQueue queue;
   (void)queue.update({important("a")}, false, 0.0);
   (void)queue.update({text("b", 1.0)}, true, 0.1);

@@ -17,7 +17,7 @@ TEST_F(LinkCuesTest, says_which_messages_never_came) {
   EXPECT_EQ(pass(2.0), (Texts{"controller disconnected", "the robot does not report its motion"}));
 }
 
-TEST_F(LinkCuesTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
+TEST_F(LinkCuesTest, N1_says_that_the_guidance_is_lost_and_goes_on_when_it_is_back) {
   under_way();
   now_.links.guidance = Link::lost;
   EXPECT_EQ(pass(1.0), Texts{"the guidance is lost"});
@@ -26,7 +26,7 @@ TEST_F(LinkCuesTest, says_that_the_guidance_is_lost_and_goes_on_when_it_is_back)
   EXPECT_EQ(pass(0.5), Texts{"drive straight, 20 meters"});
 }
 
-TEST_F(LinkCuesTest, names_only_the_simulator_when_all_dies_with_it) {
+TEST_F(LinkCuesTest, T3_names_only_the_simulator_when_all_dies_with_it) {
   under_way();
   now_.links.simulator = now_.links.guidance = now_.links.proximity = Link::lost;
   now_.gate = DriveState::State::stopped;
@@ -51,7 +51,7 @@ TEST_F(LinkCuesTest, names_only_the_simulator_whichever_of_its_messages_is_misse
   EXPECT_EQ(pass(1.0), Texts{"obstacles are not sensed"}) << "where that alone is lost";
 }
 
-TEST_F(LinkCuesTest, says_that_a_stick_comes_too_late_and_not_that_it_is_disconnected) {
+TEST_F(LinkCuesTest, C6_says_that_a_stick_comes_too_late_and_not_that_it_is_disconnected) {
   under_way();
   now_.links.pad = Link::lost;
   now_.devices.states = now_.notices = {CueKind::pad_too_late};

@@ -329,7 +329,7 @@ TEST(Phrases, refuse_a_phrase_that_is_too_long_only_when_filled) {
   EXPECT_TRUE(names(sentence, "filled")) << sentence;
 }
 
-TEST(Phrases, cannot_be_made_to_speak_anything_else) {
+TEST(Phrases, F3_cannot_be_made_to_speak_anything_else) {
   // Whatever is put in comes from fixed sets; every combination stays within the limits.
   for (const fs::path& language : {kEnglish, kSpanish})
     for (const WordingConfig& worded : all_wordings()) {

@@ -105,7 +105,7 @@ TEST(Mixer, is_silent_by_intent_and_opens_nothing) {
   EXPECT_FALSE(mixer.speak(tone(400.0, 0.1), 1.0));
 }
 
-TEST(Mixer, notices_the_loss_of_its_device_and_plays_again_once_there_is_one) {
+TEST(Mixer, F2_notices_the_loss_of_its_device_and_plays_again_once_there_is_one) {
   const fs::path file = recording_folder() / "heard.wav";
   fs::remove(file);
   fs::create_symlink("/dev/full", file);  // takes no sample

@@ -32,21 +32,21 @@ TEST_F(DriveOf, a_missing_stick_or_one_that_is_not_finite_gives_no_command) {
   EXPECT_FALSE(drive_.armed());
 }
 
-TEST_F(DriveOf, a_stick_that_is_held_when_it_appears_moves_nothing) {
+TEST_F(DriveOf, J7_a_stick_that_is_held_when_it_appears_moves_nothing) {
   const auto velocity = hold(Stick{0.0, 1.0}, 5.0);
   ASSERT_TRUE(velocity);
   EXPECT_EQ(velocity->linear, 0.0);
   EXPECT_FALSE(drive_.armed());
 }
 
-TEST_F(DriveOf, a_stick_arms_after_three_hundred_milliseconds_of_neutral) {
+TEST_F(DriveOf, J7_a_stick_arms_after_three_hundred_milliseconds_of_neutral) {
   hold(Stick{}, 0.28);
   EXPECT_FALSE(drive_.armed());
   hold(Stick{}, 0.04);
   EXPECT_TRUE(drive_.armed());
 }
 
-TEST_F(DriveOf, a_returning_stick_that_is_held_moves_nothing) {
+TEST_F(DriveOf, J3_a_returning_stick_that_is_held_moves_nothing) {
   arm();
   hold(Stick{0.0, 1.0}, 2.0);
   hold(std::nullopt, kStep);
@@ -66,7 +66,7 @@ TEST_F(DriveOf, a_stick_that_comes_back_arms_anew_and_begins_from_a_standstill) 
   EXPECT_NEAR(velocity.angular, config_.turn_acceleration * kStep, 1e-9);
 }
 
-TEST_F(DriveOf, drift_within_the_dead_zone_counts_as_neutral) {
+TEST_F(DriveOf, J7_drift_within_the_dead_zone_counts_as_neutral) {
   hold(Stick{0.05, -0.05}, 0.4);
   EXPECT_TRUE(drive_.armed());
   const auto velocity = hold(Stick{0.05, -0.05}, 1.0);

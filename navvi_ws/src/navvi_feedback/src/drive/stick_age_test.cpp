@@ -18,7 +18,7 @@ TEST(StickAge, knows_of_no_delay_before_the_first_message_and_after_the_last) {
   EXPECT_EQ(age.late(1.3), Late::no) << "it is lost, which is told";
 }
 
-TEST(StickAge, slows_above_300_ms_and_stops_above_1_s_in_either_direction) {
+TEST(StickAge, C6_slows_above_300_ms_and_stops_above_1_s_in_either_direction) {
   StickAge age;
   const auto of = [&](double seconds) {
     age.add(seconds, 1.0);

@@ -1,15 +1,22 @@
-// Damaged files of a person, of places, phrases, questions and parameters.
+// Damaged files of a person, of places, phrases, questions and parameters; frames and messages
+// of devices.
 
-#include "fuzz.hpp"
+#include "fuzz_message.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
 
 #include <navvi_files/files.hpp>
 
 #include "lessons/questionnaire.hpp"
 #include "navvi_feedback/menu/places_file.hpp"
+#include "navvi_feedback/node/msg_conversion.hpp"
 #include "node/node_config.hpp"
 #include "person/person_file.hpp"
+#include "process/frame.hpp"
 
 namespace navvi_feedback::node {
 namespace {
@@ -61,6 +68,32 @@ TEST(FuzzFiles, settings_of_a_person_are_read_or_refused_and_kept) {
     EXPECT_EQ(file.load()["speaker"]["rate"].as<double>(), 250.0);
   });
   ::unsetenv("NAVVI_PEOPLE");
+}
+
+TEST(FuzzFrames, of_the_voice_are_whole_or_the_last) {
+  const std::string frame("\x22\x56\0\0\4\0\0\0abcd", 12);  // 22050 Hz, 4 bytes
+  navvi_test::fuzz_bytes({frame + frame}, [](const std::string& damaged) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    static_cast<void>(!::send(ends[0], damaged.data(), damaged.size(), MSG_DONTWAIT));
+    ::close(ends[0]);
+    std::size_t read = 0;
+    while (const auto got = process::receive(ends[1], process::Clock::now()))
+      read += 8 + got->bytes.size();
+    EXPECT_LE(read, damaged.size());
+    ::close(ends[1]);
+  });
+}
+
+TEST(FuzzMessages, J7_of_a_stick_are_in_range_or_dropped) {
+  sensor_msgs::Joy joy;
+  joy.axes = {0.5F, -1.0F};
+  joy.buttons = {0, 1};
+  navvi_test::fuzz_message(joy, [](const sensor_msgs::Joy& msg) {
+    if (const auto input = from_msg(msg)) {
+      for (const double axis : input->axes) EXPECT_LE(std::abs(axis), 1.0);
+    }
+  });
 }
 
 }  // namespace

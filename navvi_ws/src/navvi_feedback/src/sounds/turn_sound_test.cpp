@@ -216,7 +216,7 @@ TEST(TurnSound, is_silent_where_words_lead_better_and_is_tried_again) {
   EXPECT_TRUE(person.sound_.leads());
 }
 
-TEST(TurnSound, gives_way_to_words_for_good_where_three_turns_went_the_wrong_way) {
+TEST(TurnSound, F7_gives_way_to_words_for_good_where_three_turns_went_the_wrong_way) {
   Turner person{TurnConfig{}};
   person.turn(80.0, 0.4);
   person.mirrored = true;

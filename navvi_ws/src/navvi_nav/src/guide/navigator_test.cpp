@@ -26,7 +26,7 @@ TEST_F(Lockstep, says_pose_stale_without_a_pose_and_recovers) {
   EXPECT_EQ(status().state, Guidance::State::pose_stale);
 }
 
-TEST_F(Lockstep, keeps_the_last_good_map_when_a_broken_one_comes) {
+TEST_F(Lockstep, N9_keeps_the_last_good_map_when_a_broken_one_comes) {
   load();
   plan::MapMessage broken = *message_of(world_);
   broken.data.resize(broken.data.size() / 2);
@@ -38,7 +38,7 @@ TEST_F(Lockstep, keeps_the_last_good_map_when_a_broken_one_comes) {
   EXPECT_EQ(status().state, Guidance::State::following);
 }
 
-TEST_F(Lockstep, refuses_a_goal_inside_an_obstacle_and_shows_no_path) {
+TEST_F(Lockstep, N3_refuses_a_goal_inside_an_obstacle_and_shows_no_path) {
   lead({14, 5});
   ASSERT_FALSE(navigator_.path().empty());
   navigator_.set_goal({7, 5});
@@ -50,7 +50,7 @@ TEST_F(Lockstep, refuses_a_goal_inside_an_obstacle_and_shows_no_path) {
   EXPECT_EQ(status().state, Guidance::State::goal_refused);
 }
 
-TEST_F(Lockstep, keeps_a_standing_goal_when_a_goal_that_cannot_be_read_comes) {
+TEST_F(Lockstep, N5_keeps_a_standing_goal_when_a_goal_that_cannot_be_read_comes) {
   load();
   EXPECT_FALSE(navigator_.drop_bad_goal(Guidance::Refusal::not_finite, "not finite"));
   EXPECT_EQ(status().state, Guidance::State::goal_refused);
@@ -136,7 +136,7 @@ TEST_F(Lockstep, T4_arrives_only_where_odometry_agrees) {
   EXPECT_EQ(status().state, Guidance::State::arrived);
 }
 
-TEST_F(Lockstep, never_steers_through_what_stands_after_a_localizer_corrected_the_pose) {
+TEST_F(Lockstep, H6_never_steers_through_what_stands_after_a_localizer_corrected_the_pose) {
   lead({14, 5});
   for (const double y : {2.4, 7.6, 2.4}) {  // beside the block, on either side
     robot_.position = {7.5, y};

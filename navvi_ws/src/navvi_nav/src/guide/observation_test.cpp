@@ -41,7 +41,7 @@ TEST(Observation, drops_obstacles_that_are_too_old) {
   EXPECT_FALSE(observation.obstacles_lost());
 }
 
-TEST(Observation, gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps) {
+TEST(Observation, T1_gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps) {
   Observation observation{ObservationConfig{}};
   EXPECT_FALSE(observation.pose(0.0));
   observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0);

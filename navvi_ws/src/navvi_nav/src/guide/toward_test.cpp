@@ -49,7 +49,7 @@ class Toward : public Lockstep {
   int changes_ = 0;
 };
 
-TEST_F(Toward, a_goal_beyond_the_map_is_refused_until_a_person_asks_again) {
+TEST_F(Toward, N12_a_goal_beyond_the_map_is_refused_until_a_person_asks_again) {
   choose({20, 3});
   EXPECT_EQ(status().state, Guidance::State::goal_refused);
   EXPECT_EQ(status().refusal, Guidance::Refusal::off_the_map);
@@ -87,7 +87,7 @@ TEST_F(Toward, follows_the_map_as_it_grows_and_arrives_at_the_goal_itself) {
   EXPECT_LE(changes_, 1) << "besides those by a map";
 }
 
-TEST_F(Toward, never_arrives_where_the_map_ends_and_refuses_the_goal_there) {
+TEST_F(Toward, N12_never_arrives_where_the_map_ends_and_refuses_the_goal_there) {
   choose_twice({20, 3});
   follow(20.0);
   EXPECT_EQ(status().state, Guidance::State::goal_refused);

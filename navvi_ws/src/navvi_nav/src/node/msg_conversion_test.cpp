@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "fuzz_message.hpp"
 #include "temp_folder.hpp"
 
 namespace navvi_nav::node {
@@ -37,6 +38,17 @@ TEST(MsgConversion, reads_an_occupancy_grid_that_lies_flat) {
   msg.info.origin.position.y = 0.0;
   msg.info.width = 4000000000U;
   EXPECT_FALSE(from_msg(msg));
+}
+
+TEST(FuzzMessages, N9_of_maps_are_taken_or_dropped) {
+  nav_msgs::OccupancyGrid grid;
+  grid.info.width = grid.info.height = 3;
+  grid.info.resolution = 0.05F;
+  grid.info.origin.orientation.w = 1.0;
+  grid.data.assign(9, 0);
+  navvi_test::fuzz_message(grid, [](const nav_msgs::OccupancyGrid& msg) {
+    if (const auto taken = from_msg(msg)) static_cast<void>(map::read_grid(*taken, {}));
+  });
 }
 
 TEST(MsgConversion, says_why_a_map_cannot_be_used) {

@@ -54,7 +54,7 @@ class Escape : public testing::Test {
   std::vector<guide::MovingThing> things_{thing(1, {5, 3}, 1.35, 2.4, 1.1)};
 };
 
-TEST_F(Escape, leads_off_before_beside_and_behind) {
+TEST_F(Escape, N4_leads_off_before_beside_and_behind) {
   for (const Point start : {Point{6.6, 3}, Point{5, 3.9}, Point{5.4, 2.2}, Point{3.5, 3.1}}) {
     const auto out = leave(start);
     ASSERT_TRUE(out) << start.x << ' ' << start.y;

@@ -57,7 +57,7 @@ TEST(Planner, says_that_there_is_no_map) {
   EXPECT_EQ(Planner(PlannerConfig{}).plan({0, 0}, {1, 1}).status, PlanStatus::no_map);
 }
 
-TEST(Planner, tells_the_refusals_apart) {
+TEST(Planner, N3_tells_the_refusals_apart) {
   Planner planner =
       planner_on(SmallWorld().room(12, 6).box(6, 0, 0, 6.1, 6, 1).box(2, 2, 0, 3, 3, 1));
   EXPECT_EQ(planner.plan({1, 1}, {2.5, 2.5}).refusal, Guidance::Refusal::inside_obstacle);
@@ -74,7 +74,7 @@ TEST(Planner, tells_the_refusals_apart) {
   EXPECT_EQ(planner.plan({1, 1}, {5, 5}).status, PlanStatus::found);
 }
 
-TEST(Planner, calls_a_goal_not_seen_where_nothing_is_known_and_not_where_something_stands) {
+TEST(Planner, N3_calls_a_goal_not_seen_where_nothing_is_known_and_not_where_something_stands) {
   Planner planner =
       planner_on(SmallWorld().floor(0, 0, 6, 6).box(4, 4, 0, 5, 5, 1).floor(9, 0, 10, 6));
   EXPECT_EQ(planner.plan({2, 2}, {7.5, 3}).refusal, Guidance::Refusal::not_seen);
@@ -116,7 +116,7 @@ TEST(Planner, keeps_the_end_of_the_path_that_is_followed_unless_half_a_metre_is_
   EXPECT_LT(planner.plan({2, 3}, goal, beside_the_floor, true).path.back().x, 5.7);
 }
 
-TEST(Planner, says_off_mesh_where_no_path_can_begin) {
+TEST(Planner, N4_says_off_mesh_where_no_path_can_begin) {
   SmallWorld world;
   world.room(12, 8).box(2, 2, 0, 6, 6, 1);
   Planner planner = planner_on(world);
@@ -166,7 +166,7 @@ TEST(Planner, ends_exactly_at_the_goal_even_in_the_last_cell_before_a_wall) {
   expect_clear(plan.path, world, {});
 }
 
-TEST(Planner, survives_start_and_goal_in_one_place) {
+TEST(Planner, N5_survives_start_and_goal_in_one_place) {
   SmallWorld world;
   world.room(8, 8);
   const Plan plan = planner_on(world).plan({4, 4}, {4, 4});

@@ -22,7 +22,7 @@ PlanAnswer answer_of(Worker& worker) {
   return *answer;
 }
 
-TEST(Worker, finds_paths_on_the_old_mesh_while_a_large_map_is_baked) {
+TEST(Worker, N2_finds_paths_on_the_old_mesh_while_a_large_map_is_baked) {
   Worker worker(PlannerConfig{}, [] {});
   worker.start(with_map(10.0));
   ASSERT_TRUE(answer_of(worker).map_taken);

@@ -165,7 +165,7 @@ def number_of(line, path):
     try:
         return int(line.partition(",")[0])
     except ValueError:
-        raise BatchError(f"{path} has a line that begins with \"{line[:20]}\"; allowed is the number of a trial. Take the line out: its trial is "
+        raise BatchError(f"{path} has a line that begins with {line[:20]!r}; allowed is the number of a trial. Take the line out: its trial is "
                          "run again.") from None
 
 

@@ -84,7 +84,7 @@ sight::Prior strip(double yaw) {
   return prior;
 }
 
-TEST(LocalMap, a_turned_prior_map_lies_as_it_was_turned) {
+TEST(LocalMap, H4_a_turned_prior_map_lies_as_it_was_turned) {
   for (const double yaw : {0.0, 0.3, 2.0, -2.5}) {
     const LocalMap map(MapConfig(), strip(yaw));
     const auto known = [&](double x, double y) {

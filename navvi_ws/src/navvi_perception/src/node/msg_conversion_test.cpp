@@ -11,6 +11,8 @@
 #include <limits>
 #include <set>
 
+#include "fuzz_message.hpp"
+
 namespace navvi_perception::node {
 namespace {
 
@@ -51,7 +53,7 @@ std::string read(const std::vector<float>& ranges, bool free) {
   return words;
 }
 
-TEST(MsgConversion, reads_rays_without_a_return_as_rep_117_or_as_the_driver_means_them) {
+TEST(MsgConversion, H2_reads_rays_without_a_return_as_rep_117_or_as_the_driver_means_them) {
   const std::vector<float> ranges = {1.0F, kInf, kNan, 0.0F, 10.0F, 11.0F, 65.535F, 0.05F, -kInf};
   EXPECT_EQ(read(ranges, false), ".c???????");
   EXPECT_EQ(read(ranges, true), ".cccccc??") << "what is too near is never free";
@@ -149,7 +151,7 @@ void rewrite(sensor_msgs::PointCloud2& msg, std::size_t extra, bool big) {
   msg.is_bigendian = big;
 }
 
-TEST(MsgConversion, reads_clouds_as_drivers_lay_them_out) {
+TEST(MsgConversion, H3_reads_clouds_as_drivers_lay_them_out) {
   const std::vector<Habit> habits = {
       {"as defined", [](auto&) {}},
       {"row_step 0", [](auto& msg) { msg.row_step = 0; }},
@@ -269,6 +271,37 @@ TEST(MsgConversion, shows_the_robot_with_its_nose_ahead) {
   ASSERT_EQ(parts[1].points.size(), 3U);
   EXPECT_DOUBLE_EQ(parts[1].points[0].x, 0.3);
   EXPECT_NE(parts[0].id, parts[1].id);
+}
+
+TEST(FuzzMessages, H2_of_sensors_are_taken_or_dropped) {
+  navvi_test::fuzz_message(scan(), [](const sensor_msgs::LaserScan& msg) {
+    const auto taken = from_msg(msg);
+    if (!taken) return;
+    EXPECT_TRUE(std::isfinite(sweep_of(**taken)));
+    for (const bool free : {false, true})
+      for (const float range : with_clear_rays(plain(**taken, free)).ranges)
+        EXPECT_FALSE(std::isinf(range));
+  });
+  navvi_test::fuzz_message(cloud({{1, 2, 3}, {4, 5, 6}}), [](const sensor_msgs::PointCloud2& msg) {
+    const auto taken = from_msg(msg);
+    if (!taken) return;
+    for (const Eigen::Vector3d& point : points_of(**taken, 100)) EXPECT_TRUE(point.allFinite());
+  });
+  nav_msgs::OccupancyGrid grid;
+  grid.info.width = grid.info.height = 2;
+  grid.info.resolution = 0.05F;
+  grid.info.origin.orientation.w = 1.0;
+  grid.data = {0, 100, -1, 0};
+  navvi_test::fuzz_message(grid, [](const nav_msgs::OccupancyGrid& msg) {
+    const auto prior = from_msg(msg);
+    EXPECT_TRUE(!prior || prior->cells.size() == msg.data.size());
+  });
+  geometry_msgs::Transform transform;
+  transform.rotation.w = 1.0;
+  navvi_test::fuzz_message(transform, [](const geometry_msgs::Transform& msg) {
+    const auto pose = pose_of(msg);
+    EXPECT_TRUE(!pose || pose->matrix().allFinite());
+  });
 }
 
 }  // namespace

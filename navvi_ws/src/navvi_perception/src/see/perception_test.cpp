@@ -171,7 +171,7 @@ TEST_F(PerceptionTest, follows_a_crossing_worker_under_one_number_with_its_veloc
   }
 }
 
-TEST_F(PerceptionTest, follows_a_worker_while_a_mapper_changes_the_prior_map_each_second) {
+TEST_F(PerceptionTest, H4_follows_a_worker_while_a_mapper_changes_the_prior_map_each_second) {
   with_prior();
   (void)live(7.0, [](double) {});  // the box is known
   hall_.discs = {{{1.5, -3.0}, 0.24}};
@@ -189,7 +189,7 @@ TEST_F(PerceptionTest, follows_a_worker_while_a_mapper_changes_the_prior_map_eac
   EXPECT_EQ(seen.told, 40);
 }
 
-TEST_F(PerceptionTest, believes_a_scan_without_returns_only_where_the_map_has_no_wall_in_range) {
+TEST_F(PerceptionTest, H2_believes_a_scan_without_returns_only_where_the_map_has_no_wall_in_range) {
   sight::Sight sight = hall_.look(1.0);
   EXPECT_TRUE(perception_->believes(sight));
   sight.clear.insert(sight.clear.end(), sight.hits.begin(), sight.hits.end());

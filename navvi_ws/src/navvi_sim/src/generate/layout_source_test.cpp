@@ -147,7 +147,7 @@ TEST_F(LayoutFile, is_told_which_keys_there_are_when_it_has_none_that_is_known) 
   }
 }
 
-TEST_F(LayoutFile, is_refused_when_it_is_too_large_before_it_is_read) {
+TEST_F(LayoutFile, N11_is_refused_when_it_is_too_large_before_it_is_read) {
   std::string text = "layout:\n  length: 40\n";
   text += "#" + std::string(10'000'000, 'x') + "\n";
   EXPECT_NE(sentence_of(text).find("1 MiB"), std::string::npos) << sentence_of(text);

@@ -20,7 +20,7 @@ TEST(Pacer, runs_faster_than_the_wall_clock_if_asked) {
   EXPECT_EQ(pacer.due(0.1), 40);
 }
 
-TEST(Pacer, lets_go_of_what_it_cannot_catch_up) {
+TEST(Pacer, S4_lets_go_of_what_it_cannot_catch_up) {
   Pacer pacer(0.01, 1.0, 5);
   EXPECT_EQ(pacer.due(0.0), 0);
   EXPECT_EQ(pacer.due(1.0), 5);

@@ -74,7 +74,7 @@ TEST(Session, its_record_repeats_it) {
   EXPECT_NE(different.hashes(), first.hashes) << "the hash must see the least change";
 }
 
-TEST(Session, repeats_after_fifty_other_trials_in_the_same_process) {
+TEST(Session, S6_repeats_after_fifty_other_trials_in_the_same_process) {
   const Drive drive(3);
   const std::vector<navvi_types::StateHash> first = drive.driven(kSteps).hashes;
   for (int trial = 0; trial < 50; ++trial) {

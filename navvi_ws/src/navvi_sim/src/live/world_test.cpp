@@ -135,7 +135,7 @@ Thing obstacle_at_origin(const Geometry& geometry, double depth, double height) 
   return thing;
 }
 
-TEST(World, F3_a_robot_at_a_wall_turns_as_without_contact) {
+TEST(World, a_robot_at_a_wall_turns_as_without_contact) {
   auto sheet = std::make_shared<Mesh>();
   sheet->vertices = {{0, -5, -1}, {0, 5, -1}, {0, 5, 1}, {0, -5, 1}};
   sheet->triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -180,7 +180,7 @@ TEST(World, F3_a_robot_at_a_wall_turns_as_without_contact) {
     }
 }
 
-TEST(World, low_pedestals_block_and_lower_plates_do_not) {
+TEST(World, N8_low_pedestals_block_and_lower_plates_do_not) {
   const auto drives_at = [](const Thing& thing) {
     WorldDescription description = floor_only();
     description.things.push_back(thing);
@@ -231,7 +231,7 @@ TEST(World, a_yielding_mover_touches_no_robot_that_stands_anywhere_on_its_way) {
   }
 }
 
-TEST(World, a_mover_that_does_not_yield_pushes_the_robot_and_is_counted) {
+TEST(World, S3_a_mover_that_does_not_yield_pushes_the_robot_and_is_counted) {
   WorldDescription description = floor_only();
   description.things.push_back(mover_thing({-4, 0}, {4, 0}, 1.0));
   WorldConfig config;
@@ -244,7 +244,7 @@ TEST(World, a_mover_that_does_not_yield_pushes_the_robot_and_is_counted) {
   EXPECT_LT(world.now().robot.velocity.norm(), 2.0);
 }
 
-TEST(World, a_pushing_mover_does_not_press_the_robot_through_a_wall) {
+TEST(World, S3_a_pushing_mover_does_not_press_the_robot_through_a_wall) {
   WorldDescription description = floor_only();
   description.things.push_back(box_thing("wall", ThingClass::wall, {2.05, 0, 1}, {0.1, 10, 2}));
   description.things.push_back(mover_thing({-4, 0}, {1.45, 0}, 1.0));
@@ -352,7 +352,7 @@ TEST(World, refuses_a_command_that_is_no_number_and_lives_on) {
   EXPECT_EQ(world.step({}), World::Status::running);
 }
 
-TEST(World, a_state_that_is_no_number_stops_the_world_for_good) {
+TEST(World, S2_a_state_that_is_no_number_stops_the_world_for_good) {
   World world = make(floor_only(), {{std::numeric_limits<double>::quiet_NaN(), 0.0}, 0.0});
   EXPECT_EQ(world.step({}), World::Status::numeric_failure);
   EXPECT_EQ(world.step({}), World::Status::numeric_failure);

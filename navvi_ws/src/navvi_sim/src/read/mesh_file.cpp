@@ -4,19 +4,24 @@
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <sys/resource.h>
 #include <tinyxml2.h>
+#include <unistd.h>
 
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <navvi_files/bytes.hpp>
+#include <navvi_files/child_process.hpp>
 #include <set>
+#include <string_view>
 
 #include "description/sentence.hpp"
 #include "description/validate.hpp"
-#include "read/collada_check.hpp"
 #include "read/xml_element.hpp"
 
 namespace Assimp {
@@ -33,6 +38,8 @@ namespace {
 
 constexpr std::uintmax_t kMaxBytes = 200'000'000;
 constexpr std::size_t kMaxTriangles = 1'000'000;  // assimp takes 0.5 kB for each
+constexpr rlim_t kMostMemory = rlim_t{2} << 30U;  // bytes, of reading one
+constexpr rlim_t kMostSeconds = 20;  // of the processor, of reading one
 constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 constexpr int kMaxDepth = 200;               // of nodes
 constexpr float kLeastExtent = 1e-3F;        // m
@@ -92,28 +99,6 @@ void check_stl(const std::filesystem::path& file) {
     refuse_size(file);
 }
 
-/// Refuses a face of so many corners that it takes long to cut into triangles.
-void check_obj(const std::filesystem::path& file) {
-  constexpr std::size_t kMostCorners = 5'000;  // twice as many take four times as long
-  std::ifstream stream(file, std::ios::binary);
-  bool goes_on = false;
-  std::size_t corners = 0;
-  for (std::string line; std::getline(stream, line);
-       goes_on = !line.empty() && line.back() == '\\') {
-    while (!line.empty() && line.back() == '\r') line.pop_back();
-    const std::size_t begin = line.find_first_not_of(" \t");
-    if (!goes_on) corners = 0;
-    if (begin == std::string::npos || (!goes_on && line[begin] != 'f')) continue;
-    for (std::size_t at = line.find_first_of(" \t", begin); at < line.size();
-         at = line.find_first_of(" \t", at)) {
-      at = line.find_first_not_of(" \t", at);
-      if (at < line.size() && ++corners > kMostCorners)
-        refuse(file, "has a face of more than " + std::to_string(kMostCorners) +
-                         " corners; allowed is up to that");
-    }
-  }
-}
-
 /// Prints Collada without what assimp's reader trips over and Gazebo's own does not: comments,
 /// document types, and, of a document that collapses them, blanks before the first word of an
 /// element.
@@ -125,16 +110,39 @@ class PlainPrinter : public tinyxml2::XMLPrinter {
   bool Visit(const tinyxml2::XMLUnknown&) override { return true; }
 };
 
+/// Refuses a word among indices, which assimp reads until no memory is left, and an array that is
+/// shorter than what its accessor names, beyond which it reads.
+void check_collada(const std::filesystem::path& file, const tinyxml2::XMLElement& element) {
+  const std::string_view name = element.Name();
+  const bool indices = name == "p" || name == "v" || name == "h" || name == "vcount";
+  for (const auto* child = element.FirstChild(); child != nullptr; child = child->NextSibling()) {
+    if (child->ToElement() != nullptr) check_collada(file, *child->ToElement());
+    if (indices && child->ToText() != nullptr &&
+        child->Value()[std::strspn(child->Value(), "0123456789+- \t\r\n")] != '\0')
+      refuse(file, "has a <" + std::string(name) +
+                       "> that holds more than indices; allowed are whole numbers");
+  }
+  const auto* const technique = element.FirstChildElement("technique_common");
+  const auto* const accessor =
+      technique == nullptr ? nullptr : technique->FirstChildElement("accessor");
+  const auto* const array = element.FirstChildElement("float_array");
+  if (accessor == nullptr || array == nullptr) return;
+  const double stride = accessor->DoubleAttribute("stride", 1.0);
+  const double needed =
+      accessor->DoubleAttribute("offset") + accessor->DoubleAttribute("count") * stride;
+  if (needed > array->DoubleAttribute("count"))
+    refuse(file, "has a <float_array> with a smaller count than its <accessor> reads");
+}
+
 /// \throws WorldError for a text that assimp must not read
 std::string plain_collada(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   tinyxml2::XMLDocument document(true, tinyxml2::COLLAPSE_WHITESPACE);
   parse_xml(file, std::string((std::istreambuf_iterator<char>(stream)), {}), document);
+  check_collada(file, *document.RootElement());
   PlainPrinter plain;
   document.Print(&plain);
-  std::string text = plain.CStr();
-  check_collada(file, *document.RootElement(), text.size());
-  return text;
+  return plain.CStr();
 }
 
 Eigen::Matrix4d matrix(const aiMatrix4x4& m) {
@@ -246,14 +254,8 @@ class MeshBuilder {
   std::set<std::string> names_;
 };
 
-}  // namespace
-
-Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
-  if (!part.scale.allFinite() || (part.scale.array() == 0.0).any())
-    refuse(file, "has a scale that is zero or not finite; allowed are other numbers");
-  const std::string extension = check_file(file);
-  if (extension == ".stl") check_stl(file);
-  if (extension == ".obj") check_obj(file);
+/// By assimp, which a hostile file may make crash, or take all memory or time.
+Mesh import(const std::filesystem::path& file, const std::string& extension, const MeshPart& part) {
   Assimp::Importer importer;
   importer.SetIOHandler(new MeshAlone(file.string()));  // the importer's from now on
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // as Gazebo does
@@ -279,6 +281,47 @@ Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
   if (scene == nullptr)
     refuse(file, "cannot be read (" + reason + "); allowed are whole .dae, .stl and .obj files");
   return MeshBuilder(*scene, file, part).build();
+}
+
+/// Of this process, which only reads a mesh.
+void limit_resources() {
+  const rlimit seconds{kMostSeconds, kMostSeconds};
+  ::setrlimit(RLIMIT_CPU, &seconds);
+  std::ifstream now("/proc/self/statm");
+  rlim_t pages = 0;  // the last that is read: those that can be written
+  for (int i = 0; i < 6; ++i) now >> pages;
+  const rlim_t bytes = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kMostMemory;
+  const rlimit memory{bytes, bytes};
+  ::setrlimit(RLIMIT_DATA, &memory);
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::filesystem::path& file, const MeshPart& part) {
+  if (!part.scale.allFinite() || (part.scale.array() == 0.0).any())
+    refuse(file, "has a scale that is zero or not finite; allowed are other numbers");
+  const std::string extension = check_file(file);
+  if (extension == ".stl") check_stl(file);
+  const navvi_files::Answer answer = navvi_files::run_in_child(
+      [&] {
+        limit_resources();
+        const Mesh mesh = import(file, extension, part);
+        std::vector<float> numbers(3 * mesh.vertices.size());
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+          numbers[i] = mesh.vertices[i / 3][static_cast<Eigen::Index>(i % 3)];
+        navvi_files::ByteWriter writer;
+        writer.put(numbers, mesh.triangles);
+        return writer.bytes();
+      },
+      "the mesh '" + file.string() + "' cannot be read: its reader crashed, or took more than " +
+          std::to_string(kMostMemory >> 30U) + " GB or " + std::to_string(kMostSeconds) + " s");
+  if (!answer.good) throw WorldError(answer.text);
+  Mesh mesh;
+  std::vector<float> numbers;
+  navvi_files::ByteReader(answer.text).get(numbers, mesh.triangles);
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+  return mesh;
 }
 
 }  // namespace navvi_sim::read

@@ -3,14 +3,33 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <cmath>
-
 #include "sdf_folder.hpp"
 
 namespace navvi_sim::read {
 namespace {
 
+/// Collada with one triangle, geometry g.
+std::string collada(const std::string& library, const std::string& scene) {
+  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+         "version='1.4.1'><asset><unit meter='1'/><up_axis>Z_UP</up_axis></asset>"
+         "<library_geometries><geometry id='g'><mesh><source id='p'><float_array id='a' count='9'>"
+         "0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source='#a' count='3' "
+         "stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param name='Z' "
+         "type='float'/></accessor></technique_common></source><vertices id='v'><input "
+         "semantic='POSITION' source='#p'/></vertices><triangles count='1'><input offset='0' "
+         "semantic='VERTEX' source='#v'/><p>0 1 2</p></triangles></mesh></geometry>"
+         "</library_geometries>" +
+         library + "<library_visual_scenes><visual_scene id='s'>" + scene +
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
+         "</COLLADA>";
+}
 const std::string kPiece = "<instance_geometry url='#g'/>";
+
+std::string repeated(const std::string& text, int count) {
+  std::string result;
+  for (int i = 0; i < count; ++i) result += text;
+  return result;
+}
 
 class MeshFile : public SdfFolder {
  protected:
@@ -44,70 +63,26 @@ TEST_F(MeshFile, takes_collada_apart_node_by_node) {
 }
 
 TEST_F(MeshFile, refuses_collada_whose_array_is_shorter_than_what_is_read_of_it) {
-  const std::string text = replaced(collada("", "<node>" + kPiece + "</node>"), "'9'", "'0'");
+  std::string text = collada("", "<node id='n'>" + kPiece + "</node>");
+  text.replace(text.find("count='9'"), 9, "count='0'");
   EXPECT_NE(refusal("a.dae", text).find("smaller count"), std::string::npos);
 }
 
-TEST_F(MeshFile, refuses_collada_nodes_that_instance_themselves) {
-  for (const auto& [library, scene] : std::vector<std::pair<std::string, std::string>>{
-           {"", "<node id='n'>" + kPiece + "<instance_node url='#n'/></node>"},
-           {"", "<node name='n'>" + kPiece + "<instance_node url='#n'/></node>"},
-           {"", "<node id='n'>" + kPiece + "<node><instance_node url='#n'/></node></node>"},
-           {"", "<node id='n'>" + kPiece + "<instance_node url='#s'/></node>"},
-           {"", "<node id='n'>" + kPiece + "<instance_node url='#&#110;'/></node>"},
-           {"", "<node id='n' name='a></node>'>" + kPiece + "<instance_node url='#n'/></node>"},
-           {"", "<node id='n'>" + kPiece +
-                    "<x><![CDATA[</node>]]></x><!-- </node> -->"
-                    "<instance_node url='#n'/></node>"},
-           {"<library_nodes><node id='a'>" + kPiece +
-                "<instance_node url='#b'/></node>"
-                "<node id='b'><instance_node url='#a'/></node></library_nodes>",
-            "<node id='n'><instance_node url='#a'/></node>"}}) {
-    const std::string sentence = refusal("round.dae", collada(library, scene));
-    EXPECT_NE(sentence.find("round.dae' has a node '"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("instances itself"), std::string::npos) << sentence;
-  }
-}
-
-TEST_F(MeshFile, refuses_words_among_the_indices_of_collada_whatever_parts_them) {
-  const std::string whole = collada("", "<node>" + kPiece + "</node>");
-  for (const std::string words : {"0 1 foo", "0 1<!-- -->foo 2", "0 1<!x>foo 2", "<x/>foo"}) {
-    const std::string sentence = refusal("words.dae", replaced(whole, "0 1 2<", words + "<"));
-    EXPECT_NE(sentence.find("more than indices"), std::string::npos) << words;
-  }
-}
-
-TEST_F(MeshFile, refuses_collada_that_unfolds_to_more_than_it_may) {
+TEST_F(MeshFile, survives_collada_whose_reader_crashes_or_never_ends) {
   std::string levels = "<library_nodes><node id='n0'>" + kPiece + "</node>";
   for (int i = 1; i <= 10; ++i)
     levels += "<node id='n" + std::to_string(i) + "'>" +
               repeated("<instance_node url='#n" + std::to_string(i - 1) + "'/>", 10) + "</node>";
   levels += "</library_nodes>";
-  EXPECT_NE(refusal("bomb.dae", collada(levels, "<node><instance_node url='#n10'/></node>"))
-                .find("bomb.dae' unfolds to more than 100000 nodes"),
-            std::string::npos);
+  std::string word = collada("", "<node>" + kPiece + "</node>");
+  word.replace(word.find("0 1 2</p>"), 5, "0 1 foo");
+  for (const std::string& text :
+       {collada(levels, "<node><instance_node url='#n10'/></node>"), word,
+        collada("", "<node id='n'>" + kPiece + "<instance_node url='#n'/></node>"),
+        collada(repeated("<a>", 200'000) + repeated("</a>", 200'000), "")})
+    EXPECT_NE(refusal("bad.dae", text).find("bad.dae"), std::string::npos) << text.substr(0, 1000);
   EXPECT_EQ(refusal("few.dae", collada(levels, "<node><instance_node url='#n3'/></node>")), "");
   EXPECT_EQ(triangles_, 1000U);
-  EXPECT_NE(refusal("many.dae", collada("", repeated("<node/>", 100'001))).find("unfolds"),
-            std::string::npos);
-  EXPECT_NE(
-      refusal("deep.dae", collada("", repeated("<node>", 300) + kPiece + repeated("</node>", 300)))
-          .find("deep"),
-      std::string::npos)
-      << "of tinyxml2, by its version, or ours";
-  std::string chain = "<library_nodes><node id='n0'>" + kPiece + "</node>";
-  for (int i = 1; i <= 1000; ++i)
-    chain += "<node id='n" + std::to_string(i) + "'><instance_node url='#n" +
-             std::to_string(i - 1) + "'/></node>";
-  EXPECT_NE(refusal("chain.dae", collada(chain + "</library_nodes>",
-                                         "<node><instance_node url='#n1000'/></node>"))
-                .find("nested more than 200 deep"),
-            std::string::npos);
-  EXPECT_NE(refusal("text.dae", collada(repeated("<a>", 200'000) + repeated("</a>", 200'000), ""))
-                .find("nested too deep"),
-            std::string::npos);
-  EXPECT_NE(refusal("tags.dae", collada(repeated("<a/>", 2'000'000), "")).find("tags"),
-            std::string::npos);
 }
 
 TEST_F(MeshFile, opens_the_mesh_alone_and_no_file_that_it_names) {
@@ -151,27 +126,6 @@ TEST_F(MeshFile, without_extent_or_with_corners_that_are_no_numbers_is_refused) 
   EXPECT_NE(refusal("zeros.dae", node(zeros)).find("less than 1 mm"), std::string::npos);
   EXPECT_NE(refusal("tiny.dae", node("<scale>1e-30 1e-30 1e-30</scale>")).find("less than 1 mm"),
             std::string::npos);
-}
-
-TEST_F(MeshFile, with_a_face_of_very_many_corners_or_more_values_than_bytes_is_refused) {
-  std::string face = "f";
-  std::string obj;
-  for (int i = 1; i <= 60'000; ++i) {
-    obj += "v " + std::to_string(std::cos(1e-4 * i)) + " " + std::to_string(std::sin(1e-4 * i)) +
-           " 0\n";
-    face += " " + std::to_string(i);
-  }
-  EXPECT_NE(refusal("face.obj", obj + face + "\n").find("corners"), std::string::npos);
-  const std::string good = collada("", "<node id='n'>" + kPiece + "</node>");
-  EXPECT_EQ(refusal("good.dae", good), "");
-  const auto changed = [&](const std::string& from, const std::string& to) {
-    return refusal("bad.dae", replaced(good, from, to));
-  };
-  EXPECT_NE(changed("count='9'", "count='900000000'").find("larger count"), std::string::npos);
-  EXPECT_NE(changed("stride='3'", "stride='300000000'").find("larger stride"), std::string::npos);
-  for (const char* count : {"", "counm='9'", "count='W'"})
-    EXPECT_NE(changed("count='9'", count).find("whole numbers"), std::string::npos) << count;
-  EXPECT_NE(changed("0 1 2</p>", "0 1 \x89</p>").find("indices"), std::string::npos);
 }
 
 }  // namespace

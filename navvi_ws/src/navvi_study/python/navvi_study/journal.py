@@ -5,6 +5,7 @@ breaking. What belongs to one participant (answers, notes, trials) is in that pa
 import contextlib
 import csv
 import datetime
+import errno
 import fcntl
 import getpass
 import hashlib
@@ -37,24 +38,18 @@ class Journal:
             row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": getpass.getuser(),
                    "type": kind, **fields, "before": rows[-1]["hash"] if rows else BEGIN}
             row["hash"] = hash_of(row)
-            line = (json.dumps(row, ensure_ascii=False) + "\n").encode()
             try:
-                if os.write(file, line) != len(line):
-                    raise OSError("the disk took only a part of the row")
-                os.fsync(file)
+                write_whole(file, (json.dumps(row, ensure_ascii=False) + "\n").encode(), self._good)
             except OSError as problem:
-                with contextlib.suppress(OSError):
-                    os.ftruncate(file, self._good)  # a row that may not last is not to be read as one that does
-                raise StudyError(f"{self.path} cannot be written: {problem.strerror or problem}. Nothing is begun; mend that and try again.") from None
+                raise StudyError(f"{self.path} cannot be written: {problem.strerror}. Nothing is begun; mend that and try again.") from None
             return row
 
     @contextlib.contextmanager
     def _locked(self):
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            new = not self.path.exists()
             file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
-            if new:
+            if not os.fstat(file).st_size:
                 sync_folder(self.path.parent)
         except OSError as problem:
             raise StudyError(f"{self.path} cannot be opened: {problem.strerror}.") from None
@@ -129,29 +124,35 @@ def plain(text):
     return text.encode(errors="replace").decode()
 
 
+def write_whole(file, line, end):
+    """Safe on the disk on return. What may not last is cut off at the end of before, so that it is not read as what does."""
+    try:
+        if os.write(file, line) != len(line):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        os.fsync(file)
+    except OSError:
+        with contextlib.suppress(OSError):
+            os.ftruncate(file, end)
+        raise
+
+
 def append_line(path, values):
     """A line of JSON in a participant's own file, safe on the disk on return."""
     line = (plain(json.dumps(values, ensure_ascii=False)) + "\n").encode()
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        new = not path.exists()
         file = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o600)
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            size = os.fstat(file).st_size
+            if not size:
+                sync_folder(path.parent)
+            # What a crash left of a line ends here, so that the next one stands for itself.
+            write_whole(file, b"\n" + line if size and os.pread(file, 1, size - 1) != b"\n" else line, size)
+        finally:
+            os.close(file)
     except OSError as problem:
         raise StudyError(f"{path} cannot be written: {problem.strerror}.") from None
-    try:
-        # What a crash left of a line ends here, so that the next one stands for itself.
-        size = os.fstat(file).st_size
-        if size and os.pread(file, 1, size - 1) != b"\n":
-            line = b"\n" + line
-        if os.write(file, line) != len(line):
-            raise StudyError(f"{path} cannot be written: the disk is full.")
-        os.fsync(file)
-    except OSError as problem:
-        raise StudyError(f"{path} cannot be written: {problem.strerror}.") from None
-    finally:
-        os.close(file)
-    if new:
-        sync_folder(path.parent)
 
 
 def read_lines(path, fields):

@@ -74,7 +74,7 @@ TEST_F(AJournal, of_a_folder_that_is_not_there_or_full_is_refused) {
   EXPECT_THROW(Journal("/proc", "t", 0), std::runtime_error);
 }
 
-TEST_F(AJournal, with_any_byte_changed_is_told_or_reads_the_same) {
+TEST_F(AJournal, L4_with_any_byte_changed_is_told_or_reads_the_same) {
   const std::string whole = finished();
   const auto rows = read_journal(whole).rows;
   for (std::size_t at = 0; at < whole.size(); ++at) {
@@ -103,7 +103,7 @@ TEST_F(AJournal, cut_anywhere_keeps_the_rows_before) {
   }
 }
 
-TEST_F(AJournal, survives_interrupted_and_short_writes) {
+TEST_F(AJournal, L3_survives_interrupted_and_short_writes) {
   int turn = 0;
   calls_.write = [&turn](int file, const void* data, std::size_t size) -> ssize_t {
     if (++turn % 2 == 0) {
@@ -145,7 +145,7 @@ TEST_F(AJournal, that_lacks_a_row_is_damaged_there) {
   EXPECT_EQ(read_journal(whole).damage, "the journal is damaged at row 2");
 }
 
-TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
+TEST_F(AJournal, L3_is_broken_for_good_after_a_failed_sync) {
   bool fail = false;
   int asked = 0;
   calls_.fdatasync = [&](int file) {
@@ -166,7 +166,7 @@ TEST_F(AJournal, is_broken_for_good_after_a_failed_sync) {
   EXPECT_EQ(journal.rows().size(), 1u);
 }
 
-TEST_F(AJournal, on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
+TEST_F(AJournal, L1_on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
   bool full = false;
   calls_.write = [&](int file, const void* data, std::size_t size) -> ssize_t {
     if (full && fs::exists(path_ / "journal.reserve")) {

@@ -3,11 +3,11 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <navvi_files/child_process.hpp>
 #include <navvi_files/files.hpp>
 #include <navvi_types/scenario.hpp>
 #include <string>
 
-#include "record/child_process.hpp"
 #include "record/figures.hpp"
 #include "recount/repetition.hpp"
 
@@ -55,8 +55,8 @@ int main(int argc, char** argv) {
                  summary ? "closed trial.bag" : "summary.csv in order");
     return 2;
   }
-  const study::record::Answer answer = study::record::run_in_child(
-      [&] { return check(folder, *summary); }, study::record::kBagCrashed);
+  const navvi_files::Answer answer = navvi_files::run_in_child(
+      [&] { return check(folder, *summary); }, "the bag is damaged: its reader crashed");
   if (!answer.good) {
     std::fprintf(stderr, "This trial cannot be repeated: %s.\n", answer.text.c_str());
     return 2;

@@ -6,11 +6,11 @@
 
 #include <cstdio>
 #include <cstring>
+#include <navvi_files/child_process.hpp>
 #include <navvi_files/json.hpp>
 #include <stdexcept>
 #include <string>
 
-#include "record/child_process.hpp"
 #include "record/journal.hpp"
 #include "record/trial_folder.hpp"
 #include "recount/recount.hpp"
@@ -68,8 +68,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "There is no summary.csv in order in %s.\n", folder.c_str());
     return 2;
   }
-  const study::record::Answer answer = study::record::run_in_child(
-      [&] { return recount(folder, from_bag); }, study::record::kBagCrashed);
+  const navvi_files::Answer answer = navvi_files::run_in_child(
+      [&] { return recount(folder, from_bag); }, "the bag is damaged: its reader crashed");
   const auto recounted = answer.good ? study::record::parse_summary(answer.text) : std::nullopt;
   if (!recounted) {
     std::fprintf(stderr, "Nothing can be counted again from the %s: %s.\n", argv[1],

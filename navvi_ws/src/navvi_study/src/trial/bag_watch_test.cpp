@@ -58,7 +58,7 @@ TEST_F(Bag, holds_the_trial_up_until_the_recorder_hears_or_a_minute_has_passed) 
   EXPECT_EQ(deaf.verdict(), "bad");
 }
 
-TEST_F(Bag, is_lost_when_it_stops_to_grow) {
+TEST_F(Bag, R1_is_lost_when_it_stops_to_grow) {
   BagWatch bag(recorder("echo some >\"$3.active\"; exec sleep 60"), 10.0);
   ASSERT_TRUE(becomes([&] { return fs::exists(folder_ / "trial.bag.active"); }));
   bag.expect_growth(20.0);
@@ -90,7 +90,7 @@ TEST_F(Bag, is_well_only_if_the_recorder_stopped_when_asked_and_left_something) 
   EXPECT_EQ(bag.verdict(), "ok");
 }
 
-TEST_F(Bag, of_a_recorder_that_died_is_bad) {
+TEST_F(Bag, R1_of_a_recorder_that_died_is_bad) {
   BagWatch bag(recorder("exit 1"), 10.0);
   bag.hears(10.0);
   EXPECT_TRUE(becomes([&] { return bag.ready(11.0); }));

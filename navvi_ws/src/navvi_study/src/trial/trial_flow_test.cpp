@@ -33,7 +33,7 @@ TEST(TrialFlow, ends_at_its_limit_to_the_nanosecond_however_late_that_is_seen) {
   EXPECT_EQ(ending->stamp, 15 * kSecond);
 }
 
-TEST(TrialFlow, each_loss_ends_the_trial_with_its_own_reason) {
+TEST(TrialFlow, T1_each_loss_ends_the_trial_with_its_own_reason) {
   TrialFlow flow(0.0);
   flow.start(10 * kSecond);
   const std::vector<std::pair<std::string, std::function<void(Signs&)>>> losses{

@@ -16,7 +16,7 @@
 namespace navvi_study::trial {
 namespace {
 
-TEST_F(Trials, wait_for_every_part_and_name_what_is_missing) {
+TEST_F(Trials, T2_wait_for_every_part_and_name_what_is_missing) {
   begin();
   wait(6.0);
   EXPECT_TRUE(said("No trial yet: waiting for"));
@@ -172,7 +172,7 @@ TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
 }
 
 /// A newer stamp would be the person's second ask, by which they are led toward the unseen.
-TEST_F(Trials, send_a_goal_again_with_the_stamp_of_the_persons_message_and_the_worlds_with_none) {
+TEST_F(Trials, N12_send_a_goal_again_with_the_stamp_of_the_persons_message_and_the_worlds_without) {
   config_.once = false;
   offer();
   live(5.0);
@@ -306,7 +306,7 @@ TEST_F(Trials, are_aborted_when_the_guidance_never_takes_the_goal) {
   EXPECT_TRUE(holds("summary.csv", "goal_not_taken"));
 }
 
-TEST_F(Trials, are_aborted_when_the_robot_is_heard_of_no_more) {
+TEST_F(Trials, S1_are_aborted_when_the_robot_is_heard_of_no_more) {
   run();
   wait(30.0);
   EXPECT_TRUE(keeper_->done());
@@ -519,7 +519,7 @@ TEST_F(Trials, go_on_where_their_own_node_was_halted_for_a_while) {
   EXPECT_TRUE(holds("summary.csv", "simulator_lost"));
 }
 
-TEST_F(Trials, are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_reserve) {
+TEST_F(Trials, L1_are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_reserve) {
   run();
   ASSERT_TRUE(happened("TRIAL_START"));
   failures_ = 1;
@@ -533,7 +533,7 @@ TEST_F(Trials, are_ended_as_invalid_when_the_disk_is_full_with_all_rows_in_the_r
   EXPECT_TRUE(holds("summary.csv", "disk_full"));
 }
 
-TEST_F(Trials, are_invalid_from_the_first_row_that_may_not_be_on_the_disk) {
+TEST_F(Trials, L3_are_invalid_from_the_first_row_that_may_not_be_on_the_disk) {
   run();
   failures_ = 1;
   error_ = EIO;

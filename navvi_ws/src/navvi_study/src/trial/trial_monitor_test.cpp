@@ -100,7 +100,7 @@ TEST_F(Monitor, keeps_the_last_state_of_the_world_that_is_not_after_the_end) {
   EXPECT_EQ(monitor_.tally_fields().get("state_step"), "1100");
 }
 
-TEST_F(Monitor, makes_a_lost_contact_good_from_the_running_counts) {
+TEST_F(Monitor, R3_makes_a_lost_contact_good_from_the_running_counts) {
   (void)monitor_.observe(contact(11.0, 1, "shelf", 1, 0));
   const auto events = monitor_.observe(contact(12.0, 4, "shelf", 2, 2));
   EXPECT_EQ(events.size(), 3u);

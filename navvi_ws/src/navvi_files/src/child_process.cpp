@@ -1,4 +1,4 @@
-#include "record/child_process.hpp"
+#include "navvi_files/child_process.hpp"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -10,9 +10,10 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <navvi_files/files.hpp>
 
-namespace navvi_study::record {
+#include "navvi_files/files.hpp"
+
+namespace navvi_files {
 namespace {
 
 struct CloseFile {
@@ -34,7 +35,7 @@ int answer_into(std::FILE* file, const std::function<std::string()>& work) {
     code = 2;
   }
   std::string_view rest = answer;
-  return navvi_files::write_all(::fileno(file), rest, navvi_files::SystemCalls::real()) == 0 ? code
+  return write_all(::fileno(file), rest, SystemCalls::real()) == 0 ? code
                                                                                              : 2;
 }
 
@@ -78,7 +79,8 @@ void run_in_children(std::size_t count, std::size_t at_once,
       ++started;
     } else {
       int status = 0;
-      const auto child = running.find(::waitpid(-1, &status, 0));
+      const pid_t any = running.size() == 1 ? running.begin()->first : -1;
+      const auto child = running.find(::waitpid(any, &status, 0));
       if (child == running.end()) continue;  // a signal came
       const auto& [index, file] = child->second;
       finished[index] = read_answer(file.get(), status, crashed);
@@ -99,4 +101,4 @@ Answer run_in_child(const std::function<std::string()>& work, const std::string&
   return out;
 }
 
-}  // namespace navvi_study::record
+}  // namespace navvi_files

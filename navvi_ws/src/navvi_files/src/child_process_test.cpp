@@ -1,4 +1,4 @@
-#include "record/child_process.hpp"
+#include "navvi_files/child_process.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace navvi_study::record {
+namespace navvi_files {
 namespace {
 
 std::vector<Answer> answers(std::size_t count, std::size_t at_once,
@@ -80,4 +80,4 @@ TEST(Children, do_not_write_again_what_waited_to_be_written) {
 TEST(Children, of_no_work_are_none) { EXPECT_TRUE(answers(0, 4, nullptr).empty()); }
 
 }  // namespace
-}  // namespace navvi_study::record
+}  // namespace navvi_files

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-namespace navvi_study::record {
+namespace navvi_files {
 
 struct Answer {
   bool good = false;
@@ -24,7 +24,4 @@ void run_in_children(std::size_t count, std::size_t at_once,
                      const std::string& crashed,
                      const std::function<void(std::size_t, const Answer&)>& answered);
 
-/// rosbag's reader may crash on a damaged file.
-inline constexpr const char* kBagCrashed = "the bag is damaged: its reader crashed";
-
-}  // namespace navvi_study::record
+}  // namespace navvi_files
