@@ -11,6 +11,7 @@ import scipy.ndimage
 from PIL import Image, ImageChops, ImageFilter
 
 from display import Display
+from sessions import eventually
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 pytestmark = pytest.mark.accessibility
@@ -201,6 +202,8 @@ def pictures(request, node, tmp_path_factory):
     picture = Picture(node, vision, view)
     above_panel = (10, 10, 1910, 640 if vision == "large" else 770)
     try:
+        window = ["xdotool", "search", "--onlyvisible", "--name", "RViz$"]  # not only RViz's splash
+        assert eventually(lambda: subprocess.run(window, env=picture.env, stdout=subprocess.DEVNULL).returncode == 0, 120), "RViz does not open"
         time.sleep(5)
         everything = picture.shot(folder / "all.png", above_panel)
         without = {}
