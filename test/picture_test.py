@@ -10,7 +10,7 @@ import scipy.ndimage
 from PIL import Image, ImageChops, ImageFilter
 
 from display import Display
-from sessions import Programs
+from sessions import Programs, eventually
 
 pytestmark = pytest.mark.accessibility
 VISIONS = ["high_contrast", "yellow_on_black", "large", "color_blind"]
@@ -184,6 +184,8 @@ def pictures(request, master, tmp_path_factory):
     folder = tmp_path_factory.mktemp(vision)
     above_panel = (10, 10, 1910, 640 if vision == "large" else 770)
     with Picture(master, vision, view) as picture:
+        window = ["xdotool", "search", "--onlyvisible", "--name", "RViz$"]  # not only RViz's splash
+        assert eventually(lambda: subprocess.run(window, env=picture.env, stdout=subprocess.DEVNULL).returncode == 0, 120), "RViz does not open"
         time.sleep(5)
         everything = picture.shot(folder / "all.png", above_panel)
         without = {}
