@@ -125,7 +125,7 @@ def test_a_clock_of_the_person_that_is_wrong_is_set_and_drifts_changes_nothing(s
     assert 0.2 <= float(result["round_trip"]) < 0.5, result
 
 
-def test_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session):
+def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session):
     wire, lines = session.wire, []
     session.start(wire.person, "roslaunch", str(ROOT / "launch/person.launch"), "operator:=topic", "rviz:=false", "speech:=false",
                   "press_to_start:=false", f"out:={session.folder}", "feedback_parameters:={listener: topic}")

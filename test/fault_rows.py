@@ -20,7 +20,7 @@ def results(folder):
             outcome = next((mark.tag for mark in case if mark.tag in ("failure", "error", "skipped")), "passed")
             for row in ROW.findall(case.get("name")) if outcome != "skipped" else []:
                 yield row, case.get("name"), outcome, ""
-                for entry in case.iter("property"):
+                for entry in (one for one in case.iter("property") if " of " in one.get("value")):
                     yield row, case.get("name"), outcome, f"{entry.get('name').rstrip(' 0123456789')}: {entry.get('value')}"
 
 
@@ -41,7 +41,7 @@ def main():
     kept, folder = map(pathlib.Path, sys.argv[1:])
     now = datetime.datetime.now().isoformat(timespec="seconds")
     with open(kept, "a", newline="") as file:
-        csv.writer(file).writerows([now, *result] for result in results(folder))
+        csv.writer(file, lineterminator="\n").writerows([now, *result] for result in results(folder))
     with open(kept, newline="") as file:
         print("\n".join(table(list(csv.reader(file)))))
 

@@ -283,7 +283,7 @@ def test_A2_an_array_that_is_said_to_be_endless_takes_no_memory(master):
     process = node("navvi_feedback", "feedback_node", master, "_input:=topic", "_speech:=false")
     try:
         os.environ.update(ROS_MASTER_URI=master["ROS_MASTER_URI"], ROS_IP="127.0.0.1")
-        rospy.init_node("lie", anonymous=True, disable_signals=True, disable_rostime=True)
+        rospy.init_node("too_much", anonymous=True, disable_signals=True, disable_rostime=True)
         publisher = rospy.Publisher("/joy", Lie, queue_size=1, latch=True)
         assert eventually(publisher.get_num_connections, 20)
         publisher.publish(Lie())

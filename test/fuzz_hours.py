@@ -61,21 +61,23 @@ def main():
         sys.exit(f"{build} has no test program with fuzz targets; \"./navvi test --asan fuzz\" builds them.")
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        while sum(row[4] for row in turns) < end:
+        while found and sum(row[4] for row in turns) < end:
             # The one that has had the least.
             name = min(found, key=lambda one: sum(row[4] for row in turns if row[1] == one))
             of_it = [row for row in turns if row[1] == name]
             first = max((row[2] + row[3] for row in of_it), default=0)
-            count = int(of_it[-1][3] * min(10.0, TURN / max(of_it[-1][4], 0.1))) + 1 if of_it else FIRST
+            # What failed has not used its time, and is left out from then on.
+            count = int(of_it[-1][3] * (1.0 if of_it[-1][5] else min(10.0, TURN / max(of_it[-1][4], 0.1)))) + 1 if of_it else FIRST
             log = path.with_suffix(f".{len(turns)}.log")
             seconds, good = turn(found[name], first, count, log)
             if good:
                 log.unlink()
             else:
                 print(f"{name}, seeds {first} to {first + count - 1}: a finding, in {log}", flush=True)
+                del found[name]
             turns.append((datetime.date.today().isoformat(), name, first, count, round(seconds, 1), int(not good)))
             with open(path, "a", newline="") as file:
-                csv.writer(file).writerow(turns[-1])
+                csv.writer(file, lineterminator="\n").writerow(turns[-1])
     except KeyboardInterrupt:
         pass
     print("| target | of each kind | processor hours | turns with a finding |\n|---|---|---|---|")

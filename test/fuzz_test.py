@@ -84,6 +84,11 @@ def test_a_damaged_file_is_read_or_refused(name, read, tmp_path, study_journal):
                 raise AssertionError(f"number {number} of {name}") from problem
 
 
+def test_a_record_without_any_time_of_the_monotonic_clock_places_no_mark(tmp_path):
+    (tmp_path / "journal.csv").write_bytes(TRIAL.replace(b",5,", b",0,").split(b"trial-1,2,")[0])
+    assert record.Record(tmp_path).first("TRIAL_START") and record.Record(tmp_path).onset_of(5) is None
+
+
 class Disk:
     """The system's calls, of which one meets a fault: the program is killed before, after or amid it, it is short, or has an error."""
 

@@ -57,9 +57,9 @@ void allow_files() {
 void limit_memory() {
 #ifndef __SANITIZE_ADDRESS__
   rlimit limit{};
-  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur <= kMemory) return;
+  if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur <= kMemory) return;
   limit.rlim_cur = kMemory;
-  ::setrlimit(RLIMIT_AS, &limit);
+  ::setrlimit(RLIMIT_DATA, &limit);
 #endif
 }
 

@@ -44,9 +44,9 @@ class Record:
     def onset_of(self, mono_ns):
         """The same for a time of the monotonic clock, such as a mark's, by the rows before and after it; None without a trial."""
         start = self.first("TRIAL_START")
-        if not start:
-            return None
         rows = sorted((row for row in self.rows if row.mono_ns), key=lambda row: row.mono_ns)
+        if not start or not rows:
+            return None
         at = bisect.bisect_right([row.mono_ns for row in rows], mono_ns)
         if at in (0, len(rows)):  # before the first row, or after the last, both clocks run alike
             near = rows[min(at, len(rows) - 1)]
