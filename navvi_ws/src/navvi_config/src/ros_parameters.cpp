@@ -14,7 +14,7 @@ namespace navvi_config {
 namespace {
 
 constexpr rlim_t kFiles = 256;
-constexpr rlim_t kMemory = rlim_t{4} << 30U;  // bytes, of addresses
+constexpr rlim_t kMemory = rlim_t{4} << 30U;  // bytes
 
 std::atomic<bool> g_name_taken{false};
 
