@@ -109,23 +109,26 @@ class Keys(Programs):
 
 @contextlib.contextmanager
 def frozen_window(process):
-    """Its first thread, which draws, stands still meanwhile, and only that: between two events, where it holds no lock."""
+    """Its first thread, which draws, stands still meanwhile, and only that: as it asks for the next event, where it holds no lock."""
     trace = ctypes.CDLL(None, use_errno=True).ptrace
     trace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
-    go_on, seize, interrupt, detach, all_threads = 7, 0x4206, 0x4207, 17, 0x40000000
-    poll, ppoll = 7, 271
+    to_next_call, seize, interrupt, detach, all_threads = 24, 0x4206, 0x4207, 17, 0x40000000
+    poll, ppoll = "7", "271"
 
-    def waits():
-        trace(interrupt, process.pid, None, None)
-        os.waitpid(process.pid, all_threads)
+    def asks():
+        """Goes on to the next call of the system, with what was to be told to the thread."""
+        signal_ = os.WSTOPSIG(os.waitpid(process.pid, all_threads)[1])
         call = pathlib.Path(f"/proc/{process.pid}/syscall").read_text().split()
-        found = int(call[0]) in (poll, ppoll) and int(call[2], 16) > 1  # of several descriptors
-        if not found:
-            trace(go_on, process.pid, None, None)
-        return found
+        if call[0] in (poll, ppoll) and int(call[2], 16) > 1:  # of several descriptors
+            return True
+        trace(to_next_call, process.pid, None, 0 if signal_ == signal.SIGTRAP else signal_)
+        return False
     assert trace(seize, process.pid, None, None) == 0, os.strerror(ctypes.get_errno())
     try:
-        assert eventually(waits, 20), "the window draws without a pause"
+        trace(interrupt, process.pid, None, None)
+        deadline = time.monotonic() + 20
+        while not asks():
+            assert time.monotonic() < deadline, "the window asks for no event"
         yield
     finally:
         trace(detach, process.pid, None, None)
