@@ -109,17 +109,17 @@ class Keys(Programs):
 
 @contextlib.contextmanager
 def frozen_window(process):
-    """Its first thread, which draws, stands still meanwhile, and only that: as it asks for the next event, where it holds no lock."""
+    """Its first thread, which draws, stands still meanwhile, and only that: as it waits for the display, where it holds no lock that others
+    need."""
     trace = ctypes.CDLL(None, use_errno=True).ptrace
     trace.argtypes = [ctypes.c_long, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
     to_next_call, seize, interrupt, detach, all_threads = 24, 0x4206, 0x4207, 17, 0x40000000
-    poll, ppoll = "7", "271"
+    poll = "7"
 
-    def asks():
+    def waits():
         """Goes on to the next call of the system, with what was to be told to the thread."""
         signal_ = os.WSTOPSIG(os.waitpid(process.pid, all_threads)[1])
-        call = pathlib.Path(f"/proc/{process.pid}/syscall").read_text().split()
-        if call[0] in (poll, ppoll) and int(call[2], 16) > 1:  # of several descriptors
+        if pathlib.Path(f"/proc/{process.pid}/syscall").read_text().split()[0] == poll:
             return True
         trace(to_next_call, process.pid, None, 0 if signal_ == signal.SIGTRAP else signal_)
         return False
@@ -127,8 +127,8 @@ def frozen_window(process):
     try:
         trace(interrupt, process.pid, None, None)
         deadline = time.monotonic() + 20
-        while not asks():
-            assert time.monotonic() < deadline, "the window asks for no event"
+        while not waits():
+            assert time.monotonic() < deadline, "the window never waits"
         yield
     finally:
         trace(detach, process.pid, None, None)
