@@ -120,7 +120,7 @@ bool Zone::contains(Point point) const {
 Zones::Zones(const std::string& file) {
   if (file.empty()) return;
   const YAML::Node root = navvi_config::load_yaml(file);
-  if (root.size() == 0) return;
+  if (root.IsNull()) return;
   if (!root.IsSequence() || root.size() > kMostZones)
     reject(file, root,
            "the file must be a list of at most 200 zones, such as - {name: press, kind: keep_out, "

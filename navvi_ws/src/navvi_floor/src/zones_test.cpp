@@ -128,6 +128,8 @@ TEST(Zones, what_cannot_be_a_zone_is_refused_with_its_line) {
   EXPECT_EQ(refusal(kPress), "");
   for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
            {"a: 1", "must be a list"},
+           {"{}", "must be a list"},
+           {"some words", "must be a list"},
            {"- {name: a, corners: [0, 0, 1, 0, 1, 1]}", "lacks \"kind\""},
            {"- {name: a, kind: round, corners: [0, 0, 1, 0, 1, 1]}", "keep_out, slow"},
            {"- {name: a, kind: slow, corners: [0, 0, 1, 0, 1, 1]}", "\"speed\""},
