@@ -8,28 +8,7 @@
 namespace navvi_sim::read {
 namespace {
 
-/// Collada with one triangle, geometry g.
-std::string collada(const std::string& library, const std::string& scene) {
-  return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
-         "version='1.4.1'><asset><unit meter='1'/><up_axis>Z_UP</up_axis></asset>"
-         "<library_geometries><geometry id='g'><mesh><source id='p'><float_array id='a' count='9'>"
-         "0 0 0 1 0 0 0 1 0</float_array><technique_common><accessor source='#a' count='3' "
-         "stride='3'><param name='X' type='float'/><param name='Y' type='float'/><param name='Z' "
-         "type='float'/></accessor></technique_common></source><vertices id='v'><input "
-         "semantic='POSITION' source='#p'/></vertices><triangles count='1'><input offset='0' "
-         "semantic='VERTEX' source='#v'/><p>0 1 2</p></triangles></mesh></geometry>"
-         "</library_geometries>" +
-         library + "<library_visual_scenes><visual_scene id='s'>" + scene +
-         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
-         "</COLLADA>";
-}
 const std::string kPiece = "<instance_geometry url='#g'/>";
-
-std::string repeated(const std::string& text, int count) {
-  std::string result;
-  for (int i = 0; i < count; ++i) result += text;
-  return result;
-}
 
 class MeshFile : public SdfFolder {
  protected:
