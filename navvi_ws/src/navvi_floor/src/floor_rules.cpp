@@ -130,13 +130,28 @@ void FloorRules::count(const HeightField& field, int sign, Places& places) const
   }
 }
 
+std::optional<double> FloorRules::expected_height() const {
+  return config_.floor_height != kAnyFloor ? config_.floor_height : config_.stands_at;
+}
+
+std::optional<Levels> FloorRules::levels() const {
+  const std::optional<double> height = expected_height();
+  if (!height || config_.climb > 0.0) return std::nullopt;
+  const double tolerance = kFloorTolerance / voxel_ + 1.0;
+  return Levels{static_cast<int>(std::floor(*height / voxel_ - tolerance)),
+                static_cast<int>(std::ceil(*height / voxel_ + tolerance)) + climbing_.headroom};
+}
+
+std::optional<int> FloorRules::expected_level(const Places& places) const {
+  const std::optional<double> height = expected_height();
+  if (!height) return std::nullopt;
+  return level_near(places, *height / voxel_, kFloorTolerance / voxel_ + kRounding);
+}
+
 std::optional<int> FloorRules::floor_level(const Places& places) const {
-  const auto near = [&](double height) {
-    return level_near(places, height / voxel_, kFloorTolerance / voxel_ + kRounding);
-  };
-  if (config_.floor_height != kAnyFloor) return near(config_.floor_height);
-  const std::optional<int> here = config_.stands_at ? near(*config_.stands_at) : std::nullopt;
-  return here ? here : lowest_large_level(places);
+  const std::optional<int> expected = expected_level(places);
+  if (expected || config_.floor_height != kAnyFloor) return expected;
+  return lowest_large_level(places);
 }
 
 std::string FloorRules::no_floor(const Places& places) const {

@@ -23,6 +23,10 @@ class FloorRules {
 
   /// Adds the columns of a field, or takes them away. \param sign  1 or -1
   void count(const HeightField& field, int sign, Places& places) const;
+  /// Those by which the floor is told and judged, where its height is about known; nullopt: any.
+  [[nodiscard]] std::optional<Levels> levels() const;
+  /// The floor's, of those; nullopt: there is none, or any of the map may be the floor's.
+  [[nodiscard]] std::optional<int> expected_level(const Places& places) const;
   /// nullopt: there is none, see no_floor()
   [[nodiscard]] std::optional<int> floor_level(const Places& places) const;
   [[nodiscard]] std::string no_floor(const Places& places) const;  ///< a sentence
@@ -42,6 +46,8 @@ class FloorRules {
   [[nodiscard]] const Climbing& climbing() const { return climbing_; }
 
  private:
+  [[nodiscard]] std::optional<double> expected_height() const;  // m
+
   SurveyConfig config_;
   double voxel_;
   int threads_;

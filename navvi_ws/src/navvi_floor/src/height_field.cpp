@@ -32,7 +32,9 @@ std::string rounded_up(double edge) {
 
 }  // namespace
 
-HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<Area>& wanted) {
+HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<Area>& wanted,
+                         const std::optional<Levels>& levels)
+    : levels_(levels) {
   measure(voxels, wanted);
   if (!error_.empty()) return;
   const auto width = static_cast<std::size_t>(size_[0]);
@@ -158,6 +160,9 @@ void HeightField::add(const Octet& octet, int first_row, int last_row, std::vect
 
 void HeightField::add(const VoxelBox& box, int first_row, int last_row,
                       std::vector<Lower>& lower) {
+  if (levels_ && (box.high[2] <= levels_->low + kMapCenter ||
+                  box.low[2] >= levels_->high + kMapCenter))
+    return;
   const auto level = [&](int z) { return static_cast<std::uint16_t>(z - kMapCenter - low_[2]); };
   const Packed span{level(box.low[2]), level(box.high[2])};
   const int x = kMapCenter + low_[0], y = kMapCenter + low_[1];

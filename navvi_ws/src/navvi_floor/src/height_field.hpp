@@ -17,6 +17,12 @@ struct Span {
   int top = 0;  ///< one beyond its last level
 };
 
+/// Voxels from the map's origin, along z.
+struct Levels {
+  int low = 0;
+  int high = 0;  ///< one beyond
+};
+
 /// A map's occupied voxels as columns of spans, as in Recast's height field, but written whole
 /// leaves at a time and with one entry a run. Most columns are one run, so the highest span of each
 /// is in a grid, and the few below in a list.
@@ -35,8 +41,10 @@ class HeightField {
 
   /// \param threads  that may share the work
   /// \param wanted  columns, in voxels from the map's origin; by default all that voxels take up
+  /// \param levels  what lies beyond them may be left out
   explicit HeightField(const Voxels& voxels, int threads = 1,
-                       const std::optional<Area>& wanted = std::nullopt);
+                       const std::optional<Area>& wanted = std::nullopt,
+                       const std::optional<Levels>& levels = std::nullopt);
   HeightField(const HeightField&) = delete;
   HeightField& operator=(const HeightField&) = delete;
 
@@ -55,6 +63,10 @@ class HeightField {
   [[nodiscard]] int width() const { return size_[0]; }   ///< columns along x
   [[nodiscard]] int height() const { return size_[1]; }  ///< columns along y
   [[nodiscard]] int levels() const { return size_[2]; }
+  /// Whether all is there that lies on these levels; without any: all of the map.
+  [[nodiscard]] bool has(const std::optional<Levels>& levels) const {
+    return !levels_ || (levels && levels_->low <= levels->low && levels_->high >= levels->high);
+  }
 
   /// Calls visit(span) for each span of a column, the highest first, while it returns true. No two
   /// spans of a column touch. Columns lie row by row.
@@ -110,6 +122,7 @@ class HeightField {
   Extent extent_;
   int low_[3] = {0, 0, 0};
   int size_[3] = {0, 0, 0};
+  std::optional<Levels> levels_;  // that were taken, if not all
   std::vector<Packed> highest_;
   /// Of each band of rows, by column, then downwards; ends with one of no column.
   std::vector<std::vector<Lower>> lower_;

@@ -39,11 +39,7 @@ std::vector<Leaf> large_leaves(const Voxels& voxels) {
   return out;
 }
 
-MapSurvey survey_all(const Voxels& voxels, const FloorRules& rules, SurveyRecord& record) {
-  const auto columns = voxels.columns
-                           ? voxels.columns
-                           : std::make_shared<const HeightField>(voxels, rules.threads());
-  const HeightField& field = *columns;
+MapSurvey survey_all(const HeightField& field, const FloorRules& rules, SurveyRecord& record) {
   if (!field.error().empty()) return refused(field.error());
   record.places.clear();
   rules.count(field, 1, record.places);
@@ -55,6 +51,13 @@ MapSurvey survey_all(const Voxels& voxels, const FloorRules& rules, SurveyRecord
   record.climbed.assign(shown.grid.ground.size(), false);
   for (const int column : shown.climbed) record.climbed[static_cast<std::size_t>(column)] = true;
   return resample(std::move(shown.grid), rules.config());
+}
+
+/// Those that were measured already, if all these levels are there.
+std::shared_ptr<const HeightField> columns_for(const Voxels& voxels, const FloorRules& rules,
+                                               const std::optional<Levels>& levels) {
+  if (voxels.columns && voxels.columns->has(levels)) return voxels.columns;
+  return std::make_shared<const HeightField>(voxels, rules.threads(), std::nullopt, levels);
 }
 
 MapSurvey completed(MapSurvey survey, const FloorRules& rules, const SurveyRecord& record) {
@@ -70,11 +73,16 @@ MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
   if (!voxels.error.empty()) return refused(voxels.error);
   SurveyRecord record;
   const FloorRules rules(config, voxels.resolution);
-  return completed(survey_all(voxels, rules, record), rules, record);
+  const auto columns = columns_for(voxels, rules, rules.levels());
+  MapSurvey out = survey_all(*columns, rules, record);
+  if (!columns->has(std::nullopt) && !rules.expected_level(record.places))
+    out = survey_all(HeightField(voxels, rules.threads()), rules, record);
+  return completed(std::move(out), rules, record);
 }
 
-void measure_columns(Voxels& voxels, int threads) {
-  if (voxels.error.empty()) voxels.columns = std::make_shared<const HeightField>(voxels, threads);
+void measure_columns(Voxels& voxels, const SurveyConfig& config) {
+  const FloorRules rules(config, voxels.resolution);
+  if (voxels.error.empty()) voxels.columns = columns_for(voxels, rules, rules.levels());
 }
 
 MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config, const SurveyRecord* before,
@@ -116,7 +124,7 @@ MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config, const Su
     out = survey_part(changed.value_or(Area{low, low}), rules, *before, *floor, *record);
     if (!out) voxels = read_voxels(bytes);
   }
-  if (!out) out = survey_all(voxels, rules, *record);
+  if (!out) out = survey_all(HeightField(voxels, rules.threads()), rules, *record);
   out->record = record;
   return completed(*std::move(out), rules, *record);
 }

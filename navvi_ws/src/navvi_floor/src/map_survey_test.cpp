@@ -6,6 +6,7 @@
 #include <navvi_types/angles.hpp>
 #include <random>
 
+#include "height_field.hpp"
 #include "navvi_floor/occupancy_grid.hpp"
 #include "voxel_world.hpp"
 
@@ -379,6 +380,34 @@ TEST(OccupancyGrid, is_refused_in_a_sentence_if_anything_is_wrong_with_it) {
   EXPECT_FALSE(error([](OccupancyGrid& g) { g.yaw = std::nan(""); }).empty());
   EXPECT_FALSE(error([](OccupancyGrid& g) { g.origin.x = std::nan(""); }).empty());
   EXPECT_FALSE(error([](OccupancyGrid& g) { g.width = g.height = 1 << 30; }).empty());
+}
+
+TEST(MapSurvey, is_the_same_from_the_levels_around_the_floor_alone) {
+  std::mt19937 random(7);
+  const auto at = [&](int most) { return 0.05 * static_cast<double>(random() % most); };
+  for (int round = 0; round < 40; ++round) {
+    SmallWorld world;
+    world.floor(0, 0, 3, 3).box(2, 2, 0.2, 3, 3, 0.25).box(2, 0, 3, 3, 1, 3.05);
+    for (int i = 0; i < 30; ++i) {
+      const double x = at(50), y = at(50), z = at(60);
+      world.box(x, y, z, x + 0.05 + at(8), y + 0.05 + at(8), z + 0.05 + at(8));
+    }
+    Voxels all = world.voxels(), near = all;
+    all.columns = std::make_shared<const HeightField>(all);
+    SurveyConfig low = climbing(0.0), high = low, elsewhere = low;
+    low.floor_height = 0.02;
+    measure_columns(near, low);
+    ASSERT_FALSE(near.columns->has(std::nullopt));
+    high.robot_height = 1.5;
+    high.stands_at = 0.0;
+    elsewhere.stands_at = 9.0;
+    for (const SurveyConfig& config : {low, high, elsewhere}) {
+      const MapSurvey wanted = survey_map(all, config), got = survey_map(near, config);
+      ASSERT_EQ(got.error, "");
+      ASSERT_EQ(got.floor_height, wanted.floor_height);
+      ASSERT_TRUE(got.ground == wanted.ground) << "round " << round;
+    }
+  }
 }
 
 }  // namespace

@@ -36,10 +36,14 @@ bool strait(std::uint32_t open) {
 }
 
 std::uint32_t open_around(const map::Floor& floor, map::Cell cell) {
+  const map::Area around = map::grown({cell, {cell.x + 1, cell.y + 1}}, kAround);
+  const bool inside = clipped(around, floor.area()) == around;
   std::uint32_t open = 0;
-  for (int y = cell.y + kAround; y >= cell.y - kAround; --y)
-    for (int x = cell.x + kAround; x >= cell.x - kAround; --x)
-      open = open << 1 | static_cast<std::uint32_t>(floor.open({x, y}));
+  for (int y = around.high.y - 1; y >= around.low.y; --y) {
+    const std::uint8_t* row = inside ? floor.open_row(y) - floor.origin().x : nullptr;
+    for (int x = around.high.x - 1; x >= around.low.x; --x)
+      open = open << 1 | (inside ? row[x] : static_cast<std::uint32_t>(floor.open({x, y})));
+  }
   return open;
 }
 

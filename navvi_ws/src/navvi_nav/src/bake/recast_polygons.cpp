@@ -61,17 +61,18 @@ CompactField compact_field(const TileCells& cells) {
   out->spans = allocate<rcCompactSpan>(count);
   out->areas = allocate<unsigned char>(count);
   std::fill_n(out->areas, count, RC_WALKABLE_AREA);
+  const auto apart = [&](bool inside, int at, int direction) {
+    return inside && cells.open[static_cast<std::size_t>(at)] != 0
+               ? 0U
+               : unsigned{RC_NOT_CONNECTED} << 6 * direction;
+  };
   rcCompactSpan* span = out->spans;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      if (out->cells[x + y * side].count == 0) continue;
-      for (int direction = 0; direction < 4; ++direction) {
-        const int nx = x + rcGetDirOffsetX(direction);
-        const int ny = y + rcGetDirOffsetY(direction);
-        const bool joined =
-            nx >= 0 && ny >= 0 && nx < side && ny < side && out->cells[nx + ny * side].count > 0;
-        rcSetCon(*span, direction, joined ? 0 : RC_NOT_CONNECTED);
-      }
+  for (int y = 0, at = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x, ++at) {
+      if (cells.open[static_cast<std::size_t>(at)] == 0) continue;
+      span->con = (apart(x > 0, at - 1, 0) | apart(y + 1 < side, at + side, 1) |
+                   apart(x + 1 < side, at + 1, 2) | apart(y > 0, at - side, 3)) &
+                  0xffffffU;
       span->h = 255;
       ++span;
     }

@@ -73,6 +73,18 @@ bool Ground::holds(const Eigen::Vector2d& point, double gap) const {
   });
 }
 
+std::pair<double, double> Ground::along_x(double y, double gap) const {
+  double low = std::numeric_limits<double>::lowest(), high = std::numeric_limits<double>::max();
+  for (const Edge& edge : edges_) {
+    const double left = gap - edge.outwards.y() * (y - edge.corner.y());
+    const double x = edge.outwards.x();
+    if (x > 0.0) high = std::min(high, edge.corner.x() + left / x);
+    if (x < 0.0) low = std::max(low, edge.corner.x() + left / x);
+    if (x == 0.0 && left < 0.0) return {high, low};
+  }
+  return {low, high};
+}
+
 std::vector<Eigen::Vector3d> hull_points(const Geometry& geometry) {
   std::vector<Eigen::Vector3d> points;
   const auto rim = [&](double radius, double z) {

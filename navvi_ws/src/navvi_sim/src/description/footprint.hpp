@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <utility>
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
@@ -23,6 +24,8 @@ class Ground {
   explicit Ground(const Polygon& polygon);
   /// As overlap() of the polygon and the point.
   [[nodiscard]] bool holds(const Eigen::Vector2d& point, double gap) const;
+  /// The least and the greatest x, to rounding, between which it holds the points at `y`.
+  [[nodiscard]] std::pair<double, double> along_x(double y, double gap) const;
 
  private:
   struct Edge {

@@ -16,13 +16,19 @@ navvi_floor::Point point_of(const Eigen::Vector2d& place) { return {place.x(), p
 
 }  // namespace
 
-navvi_floor::Floor floor_of(const navvi_floor::Voxels& voxels, double floor, double headroom,
-                            double reach) {
+navvi_floor::SurveyConfig level_survey(double floor, double headroom) {
   navvi_floor::SurveyConfig how;
-  how.cell_size = voxels.resolution;
   how.robot_height = headroom;
   how.climb = 0.0;
   how.floor_height = floor;
+  how.threads = 1;
+  return how;
+}
+
+navvi_floor::Floor floor_of(const navvi_floor::Voxels& voxels, double floor, double headroom,
+                            double reach) {
+  navvi_floor::SurveyConfig how = level_survey(floor, headroom);
+  how.cell_size = voxels.resolution;
   navvi_floor::MapSurvey survey = navvi_floor::survey_map(voxels, how);
   const double cells = static_cast<double>(survey.columns) * survey.rows;
   if (cells > kFineCells) {
@@ -99,6 +105,7 @@ void FloorWays::for_each_neighbour(std::size_t cell, Visit visit) const {
 FloorWays::Ways FloorWays::ways_from(std::size_t start, double least) const {
   constexpr float kEver = std::numeric_limits<float>::infinity();
   const int gap2 = gap2_of(least);
+  const auto steps_a_metre = static_cast<float>(1.0 / floor_.cell_size());
   Ways ways{std::vector<float>(size())};
   for (std::size_t cell = 0; cell < size(); ++cell)
     ways.length[cell] = gap2_[cell] >= gap2 ? kEver : -kEver;  // nothing is shorter than that
@@ -119,7 +126,7 @@ FloorWays::Ways FloorWays::ways_from(std::size_t start, double least) const {
         const float longer = length + step;
         if (longer >= ways.length[next]) return;
         ways.length[next] = longer;
-        const auto steps = static_cast<unsigned>(longer / static_cast<float>(floor_.cell_size()));
+        const auto steps = static_cast<unsigned>(longer * steps_a_metre);
         open[steps % open.size()].push_back({longer, static_cast<std::uint32_t>(next)});
       });
     }

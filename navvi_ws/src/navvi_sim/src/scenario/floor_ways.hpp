@@ -8,9 +8,14 @@
 #include <limits>
 #include <navvi_floor/floor.hpp>
 #include <navvi_floor/octomap_reader.hpp>
+#include <navvi_floor/survey.hpp>
 #include <vector>
 
 namespace navvi_sim::scenario {
+
+/// How a map is surveyed for a robot that stays on the level of its floor. \param floor  m, z
+/// \param headroom  m
+[[nodiscard]] navvi_floor::SurveyConfig level_survey(double floor, double headroom);
 
 /// The floor that navigation drives on, as it reads it from the OctoMap: one of more than 2
 /// million columns of voxels in cells several voxels wide. \param floor  m, z

@@ -65,12 +65,19 @@ void mark(const FloorWays& ways, const Polygon& polygon, double gap,
   for (const Eigen::Vector2d& corner : polygon) bounds.extend(corner);
   const Ground ground(polygon);
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(gap);
+  const double step = ways.floor().cell_size();
   ways.for_each_row_in({bounds.min() - reach, bounds.max() + reach}, [&](std::size_t begin,
                                                                          std::size_t end) {
-    // It is convex: what it holds of a row hangs together.
+    const Eigen::Vector2d first = ways.centre(begin);
+    const auto count = static_cast<double>(end - begin);
+    const auto [low, high] = ground.along_x(first.y(), gap);
+    const auto cells = [&](double x) { return std::clamp((x - first.x()) / step, 0.0, count); };
+    end = std::min(end, begin + static_cast<std::size_t>(cells(high)) + 2);
+    begin += static_cast<std::size_t>(cells(low));
     const auto holds = [&](std::size_t cell) { return ground.holds(ways.centre(cell), gap); };
     while (begin < end && !holds(begin)) ++begin;
     while (begin < end && !holds(end - 1)) --end;
+    if (begin >= end) return;
     std::fill_n(marks.begin() + static_cast<std::ptrdiff_t>(begin), end - begin, std::uint8_t{1});
   });
 }

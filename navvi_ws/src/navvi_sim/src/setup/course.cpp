@@ -5,6 +5,7 @@
 #include <navvi_floor/map_survey.hpp>
 
 #include "navvi_sim/description/world_hash.hpp"
+#include "scenario/floor_ways.hpp"
 
 namespace navvi_sim::setup {
 namespace {
@@ -39,7 +40,8 @@ Course course_of(const SimNodeConfig& config, const WorldDescription& world,
     out.ends = from_bytes(*bytes);
     return out;
   }
-  navvi_floor::measure_columns(out.voxels, 1);
+  navvi_floor::measure_columns(
+      out.voxels, scenario::level_survey(world.floor_height, config.life.robot.height));
   out.ends = scenario_of(config, world, out.voxels);
   if (cache != nullptr) cache->keep(key, to_bytes(out.ends));
   return out;

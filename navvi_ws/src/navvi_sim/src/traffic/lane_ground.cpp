@@ -81,15 +81,13 @@ Polygon swept(const Track& track, const Footprint& print, double from, double to
       wider = std::max(wider, radius * (1.0 - std::cos(0.5 * turn / steps)));
     }
   }
-  if (wider > 0.0) {
-    const std::size_t count = points.size();
-    for (std::size_t i = 0; i < count; ++i)
-      for (const Eigen::Vector2d& side :
-           {Eigen::Vector2d(wider, wider), Eigen::Vector2d(-wider, wider),
-            Eigen::Vector2d(wider, -wider), Eigen::Vector2d(-wider, -wider)})
-        points.push_back(points[i] + side);
-  }
-  return convex_hull(std::move(points));
+  Polygon hull = convex_hull(std::move(points));
+  if (wider == 0.0) return hull;
+  std::vector<Eigen::Vector2d> grown;
+  for (const Eigen::Vector2d& corner : hull)
+    for (const double x : {wider, -wider})
+      for (const double y : {wider, -wider}) grown.push_back(corner + Eigen::Vector2d(x, y));
+  return convex_hull(std::move(grown));
 }
 
 std::vector<Polygon> ground_of(const Lane& lane) {
