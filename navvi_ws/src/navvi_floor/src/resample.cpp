@@ -70,8 +70,11 @@ double cell_that_keeps_ways_open(const GroundGrid& grid, double margin) {
 }  // namespace
 
 MapSurvey resample(GroundGrid grid, const SurveyConfig& how) {
-  const double cell_size =
+  double cell_size =
       how.cell_size > 0.0 ? how.cell_size : cell_that_keeps_ways_open(grid, how.margin);
+  const double squares = static_cast<double>(grid.columns) * grid.rows;
+  if (how.most_cells < kMaxCells)
+    cell_size *= std::max(1.0, std::ceil(std::sqrt(squares / how.most_cells)));
   MapSurvey out;
   out.cell_size = cell_size;
   const Point high = grid.origin + grid.cell_size * Point{static_cast<double>(grid.columns),

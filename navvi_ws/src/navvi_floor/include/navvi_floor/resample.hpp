@@ -7,10 +7,6 @@
 
 namespace navvi_floor {
 
-/// Of a map seen from above, as columns of voxels or as squares of floor: the latter take 4 bytes
-/// each as long as the map is in use. 300 x 300 m at 0.05 m are 36 million.
-inline constexpr double kMaxCells = 50.0e6;
-
 /// "50 million"
 [[nodiscard]] inline std::string millions(double count) {
   return std::to_string(static_cast<long long>(count / 1e6)) + " million";
@@ -32,7 +28,7 @@ struct GroundGrid {
 /// The grid in cells on the lattice through the origin of map: a cell is floor only if all of it
 /// is, and an obstacle if a part is. Sets all but the floor's height; an error if there would be
 /// too many cells, or if it lies too far from the origin.
-/// \param how  of which `cell_size` and `margin` count
+/// \param how  of which `cell_size`, `margin` and `most_cells` count
 [[nodiscard]] MapSurvey resample(GroundGrid grid, const SurveyConfig& how);
 
 }  // namespace navvi_floor

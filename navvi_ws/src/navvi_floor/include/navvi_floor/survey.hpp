@@ -10,6 +10,9 @@
 
 namespace navvi_floor {
 
+/// Of a map seen from above, as columns of voxels or as squares of floor: the latter take 4 bytes
+/// each as long as the map is in use. 300 x 300 m at 0.05 m are 36 million.
+inline constexpr double kMaxCells = 50.0e6;
 inline constexpr double kAnyFloor = -1000.0;  ///< m, SurveyConfig::floor_height: choose by area
 
 struct SurveyConfig {
@@ -21,6 +24,7 @@ struct SurveyConfig {
   int threads = 2;                  ///< that may share the work; the result is the same
   double margin = 0.35;             ///< m, that the floor will be eroded by
   std::optional<double> stands_at;  ///< m, z of the robot's base_link, which is on the floor
+  double most_cells = kMaxCells;    ///< of more, several along each side become one
 };
 
 struct SurveyRecord;

@@ -29,12 +29,8 @@ navvi_floor::Floor floor_of(const navvi_floor::Voxels& voxels, double floor, dou
                             double reach) {
   navvi_floor::SurveyConfig how = level_survey(floor, headroom);
   how.cell_size = voxels.resolution;
+  how.most_cells = kFineCells;
   navvi_floor::MapSurvey survey = navvi_floor::survey_map(voxels, how);
-  const double cells = static_cast<double>(survey.columns) * survey.rows;
-  if (cells > kFineCells) {
-    how.cell_size *= std::ceil(std::sqrt(cells / kFineCells));
-    survey = navvi_floor::survey_map(voxels, how);
-  }
   if (!survey.error.empty())
     throw WorldError("navigation rejects the OctoMap of this world: " + survey.error);
   return {{survey.low, survey.cell_size, survey.floor_height, std::move(survey.ground)},
