@@ -242,7 +242,10 @@ int run(const BenchConfig& config) {
   if (worlds.size() * seeds > kMostTrials)
     throw ConfigError("the worlds and seeds make " + std::to_string(worlds.size() * seeds) +
                      " trials; allowed are " + std::to_string(kMostTrials) + ".");
-  if (config.check) return 0;
+  if (config.check) {
+    const navvi_nav::lockstep::Navigation reads_its_files(config.loop.nav);
+    return 0;
+  }
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
   const auto cache = batch::world_cache(static_cast<std::uintmax_t>(config.cache));
   const auto task_of = [&](std::size_t index) {
