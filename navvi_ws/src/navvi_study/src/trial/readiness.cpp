@@ -23,6 +23,8 @@ std::vector<std::string> Readiness::missing(double time, bool clock_runs) const 
   else if (state_ == Guidance::State::pose_stale)
     words.push_back("a pose (transforms from " + names_.map_frame + " to " + names_.base_frame +
                     ")");
+  if (!names_.link.empty() && !linked_)
+    words.push_back("the state of the connection to the robot (" + names_.link + ")");
   if (feedback_ <= kNever) words.push_back("a report of feedback_node (/diagnostics)");
   for (const auto& modality : modalities_) {
     const std::vector<std::string> needed = modality == "rumble"

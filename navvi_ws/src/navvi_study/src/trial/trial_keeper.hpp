@@ -74,6 +74,7 @@ class TrialKeeper {
   void take(const Correction& correction, const Moment& now);
   void take(const Guidance& guidance, const Moment& now);
   void take(const DeviceReport& device, const Moment& now);
+  void take(const LinkState& link, const Moment& now);
   void take(const Scenario& scenario, const Moment& now);
   /// Recorded while a trial runs, so that its rows can be found on the other clock.
   void take(const ClockOffset& clock, const Moment& now);
