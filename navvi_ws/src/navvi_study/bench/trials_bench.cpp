@@ -37,7 +37,6 @@ using record::Figure;
 
 constexpr std::size_t kMostTrials = 100000;
 
-/// From one whole number to another.
 struct Span {
   int from = 0;
   int to = 0;
@@ -191,7 +190,6 @@ record::Trial play(const BenchConfig& config, const std::string& phrases,
   return trial.finish();
 }
 
-/// The figures of a simulated trial, by name.
 record::Fields run_trial(BenchConfig config, const std::string& phrases,
                          const navvi_files::Cache* cache, const Task& task) {
   config.loop.sim.world = task.world;
@@ -211,7 +209,6 @@ record::Fields run_trial(BenchConfig config, const std::string& phrases,
   return row;
 }
 
-/// What stands in a row on the screen.
 constexpr const char* kShown[] = {"result",          "reason",   "elapsed_s", "path_length_m",
                                   "shortest_path_m", "contacts", "hits",      "reroute_count",
                                   "cues_per_min",    "misled",   "still_s",   "still_about"};

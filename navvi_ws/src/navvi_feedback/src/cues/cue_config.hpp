@@ -9,7 +9,6 @@ namespace navvi_feedback::cues {
 /// s, after words that found no room, before they are said again.
 inline constexpr double kTryAgain = 0.3;
 
-/// How things are worded, in any language.
 struct WordingConfig {
   std::string directions =
       "clock";  ///< clock "3 o'clock", left_right "right", degrees "90 degrees right"

@@ -3,7 +3,6 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <navvi_feedback/menu/named_place.hpp>
 #include <navvi_types/stall_guard.hpp>
