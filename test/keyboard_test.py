@@ -96,6 +96,20 @@ class Keys(Programs):
         self.start("rostopic", "pub", "-l", "/navvi/trial_state", "navvi_msgs/TrialState", "{state: 4}")
         assert eventually(lambda: "Publishers: None" not in self.command_line("rostopic", "info", "/navvi/trial_state"), 60)
 
+    def drive(self):
+        self.xdotool("keydown", "Up")
+        assert eventually(lambda: self.command() > 0.8)
+
+    def drive_and_turn(self):
+        self.drive()
+        self.xdotool("keyup", "Up")
+        assert eventually(lambda: self.command() == 0.0)
+        self.xdotool("keydown", "Shift", "keydown", "Left")
+        assert eventually(lambda: self.command("angular.z") > 0.1)
+        time.sleep(1)
+        assert self.command("angular.z") < 0.5, "Shift is for fine turns"
+        self.xdotool("keyup", "Left", "keyup", "Shift")
+
     def color(self):
         """Red, green and blue in the middle of the keyboard's window."""
         picture = subprocess.run(["import", "-window", self.window(KEYS), "-crop", "1x1+150+20", "-depth", "8", "rgb:-"],
@@ -150,19 +164,10 @@ def test_keys_drive_only_where_they_are_meant(keys):
     assert eventually(lambda: keys.color()[1] > keys.color()[0]), "green: the keys drive"
     time.sleep(1)  # neutral
 
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
-    keys.xdotool("keyup", "Up")
-    assert eventually(lambda: keys.command() == 0.0)
-    keys.xdotool("keydown", "Shift", "keydown", "Left")
-    assert eventually(lambda: keys.command("angular.z") > 0.1)
-    time.sleep(1)
-    assert keys.command("angular.z") < 0.5, "Shift is for fine turns"
-    keys.xdotool("keyup", "Left", "keyup", "Shift")
+    keys.drive_and_turn()
 
     # The focus is lost with a key held: the robot stops, and the person is told.
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     keys.select(OTHER)
     assert eventually(lambda: keys.command() == 0.0)
     assert eventually(lambda: keys.said("keyboard_lost"))
@@ -175,8 +180,7 @@ def test_keys_drive_only_where_they_are_meant(keys):
     assert keys.stands(2)
     keys.xdotool("keyup", "Up")
     time.sleep(1)
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     keys.xdotool("keyup", "Up")
 
 
@@ -184,8 +188,7 @@ def test_F6_keys_are_lost_with_the_display_and_return_with_it(keys):
     keys.window(KEYS)
     assert eventually(lambda: keys.has_focus(KEYS))
     time.sleep(1)  # neutral
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     keys.display.close()
     assert eventually(lambda: keys.command() == 0.0, 0.5)
     assert eventually(lambda: keys.said("keyboard_lost"))
@@ -196,8 +199,7 @@ def test_F6_keys_are_lost_with_the_display_and_return_with_it(keys):
     keys.window(KEYS)
     assert eventually(lambda: keys.has_focus(KEYS))
     time.sleep(1)
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     assert keys.node.poll() is None
 
 
@@ -213,21 +215,12 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     assert eventually(lambda: keys.has_focus(PICTURE), 120), "the picture takes its place"
     time.sleep(3)  # neutral
     assert keys.has_focus(PICTURE)
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
-    keys.xdotool("keyup", "Up")
-    assert eventually(lambda: keys.command() == 0.0)
-    keys.xdotool("keydown", "Shift", "keydown", "Left")
-    assert eventually(lambda: keys.command("angular.z") > 0.1)
-    time.sleep(1)
-    assert keys.command("angular.z") < 0.5, "Shift is for fine turns"
-    keys.xdotool("keyup", "Left", "keyup", "Shift")
+    keys.drive_and_turn()
     keys.xdotool("key", "a")
     assert eventually(lambda: keys.said("around_nothing"))
 
     # However long a frame takes.
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     cues = len(keys.rows("cues"))
     with frozen_window(rviz):
         before = len(keys.rows("commands"))
@@ -241,8 +234,7 @@ def test_keys_typed_into_the_picture_drive_too(keys):
         keys.tap("Escape")
         assert eventually(lambda: keys.said("menu_closed"), 2)
     # A picture that stands still altogether has not lost its keys either; but the robot stands.
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     rviz.send_signal(signal.SIGSTOP)
     time.sleep(0.6)
     rviz.send_signal(signal.SIGCONT)
@@ -254,8 +246,7 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     time.sleep(1)
 
     # The focus is lost, and returns, with a key held.
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     keys.select(OTHER)
     assert eventually(lambda: keys.command() == 0.0)
     assert eventually(lambda: keys.said("keyboard_lost"))
@@ -264,8 +255,7 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     assert keys.stands(2)
     keys.xdotool("keyup", "Up")
     time.sleep(1)
-    keys.xdotool("keydown", "Up")
-    assert eventually(lambda: keys.command() > 0.8)
+    keys.drive()
     keys.xdotool("keyup", "Up")
 
     # To close the picture in a trial asks first.

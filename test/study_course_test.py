@@ -125,6 +125,16 @@ def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, mo
     assert study.Study.of(plan.file).progress().freezes
 
 
+def test_zones_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, monkeypatch):
+    monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)
+    (tmp_path / "own.yaml").write_text("- {name: dock, kind: slow, corners: [0, 0, 1, 0, 1, 1]}\n")
+    args = words(study.Study(small(tmp_path, ("a: {world: easy", "a: {zones: own.yaml, world: easy"))), reason=None, no_worlds=False, pictures=False)
+    for action in actions.check, actions.freeze:
+        with pytest.raises(StudyError, match="own.yaml, line 1: \"speed\" .m/s. belongs to each slow zone, and to no other.$"):
+            action(args)
+
+
 def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):
     row = {"counts": "yes", "result": "timeout", "path_length_m": "5.0", "first_path_length_m": "10.0"}
     assert measures.value(measures.MEASURES["detour"], row) is None

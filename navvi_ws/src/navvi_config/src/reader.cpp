@@ -146,10 +146,9 @@ class YamlReader : public Visitor {
                           "\" is unknown; " + (meant.empty() ? "" : "nearest is " + meant + "; ") +
                           "known here are " + join(level.known) + ".");
       }
-      if (!seen.insert(key).second) {
+      if (!seen.insert(key).second)
         throw ConfigError(where(pair.first) + ": the key \"" + level.prefix + key +
                           "\" is given twice.");
-      }
     }
   }
 

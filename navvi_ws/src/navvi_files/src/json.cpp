@@ -1,8 +1,8 @@
 #include "navvi_files/json.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include "navvi_files/printable.hpp"
 
 namespace navvi_files {
 namespace {
@@ -32,10 +32,7 @@ std::string json_text(std::string_view text) {
 }
 
 std::string json_number(double value, int digits) {
-  if (!std::isfinite(value)) return "null";
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-  return text.data();
+  return std::isfinite(value) ? fixed(value, digits) : "null";
 }
 
 std::string json_list(const std::vector<std::string>& values) { return between('[', values, ']'); }

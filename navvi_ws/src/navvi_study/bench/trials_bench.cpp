@@ -37,7 +37,6 @@ using record::Figure;
 
 constexpr std::size_t kMostTrials = 100000;
 
-/// From one whole number to another.
 struct Span {
   int from = 0;
   int to = 0;
@@ -191,7 +190,6 @@ record::Trial play(const BenchConfig& config, const std::string& phrases,
   return trial.finish();
 }
 
-/// The figures of a simulated trial, by name.
 record::Fields run_trial(BenchConfig config, const std::string& phrases,
                          const navvi_files::Cache* cache, const Task& task) {
   config.loop.sim.world = task.world;
@@ -211,7 +209,6 @@ record::Fields run_trial(BenchConfig config, const std::string& phrases,
   return row;
 }
 
-/// What stands in a row on the screen.
 constexpr const char* kShown[] = {"result",          "reason",   "elapsed_s", "path_length_m",
                                   "shortest_path_m", "contacts", "hits",      "reroute_count",
                                   "cues_per_min",    "misled",   "still_s",   "still_about"};
@@ -242,7 +239,10 @@ int run(const BenchConfig& config) {
   if (worlds.size() * seeds > kMostTrials)
     throw ConfigError("the worlds and seeds make " + std::to_string(worlds.size() * seeds) +
                      " trials; allowed are " + std::to_string(kMostTrials) + ".");
-  if (config.check) return 0;
+  if (config.check) {
+    const navvi_nav::lockstep::Navigation reads_its_files(config.loop.nav);
+    return 0;
+  }
   const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
   const auto cache = batch::world_cache(static_cast<std::uintmax_t>(config.cache));
   const auto task_of = [&](std::size_t index) {

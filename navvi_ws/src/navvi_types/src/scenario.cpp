@@ -1,6 +1,5 @@
 #include "navvi_types/scenario.hpp"
 
-#include <array>
 #include <cinttypes>
 #include <cstdio>
 

@@ -24,7 +24,6 @@ struct Any {};
 
 using Allowed = std::variant<Any, Range, OneOf>;
 
-/// The description of one parameter.
 struct Field {
   std::string name;
   Allowed allowed;

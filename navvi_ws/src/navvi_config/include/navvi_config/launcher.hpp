@@ -18,7 +18,6 @@ namespace navvi_config {
   return parent;
 }
 
-/// Whether that process has ended since end_with_launcher().
 [[nodiscard]] inline bool parent_has_ended() { return ::getppid() != first_parent(); }
 
 /// Whether `process` is roslaunch, or a rostest that does its work.

@@ -12,7 +12,6 @@
 
 namespace navvi_feedback::core {
 
-/// What is heard besides words.
 class AuditoryDisplay {
  public:
   /// To where the person is led now, each as TurnSound takes it.

@@ -5,13 +5,6 @@
 #include "core/guide_parts.hpp"
 
 namespace navvi_feedback::core {
-namespace {
-
-constexpr double kLateShare = 0.25;  // of a command by a stick that comes late
-
-bool deflected(const drive::Stick& stick) { return stick.x != 0.0 || stick.y != 0.0; }
-
-}  // namespace
 
 std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt) {
   const drive::InputState& hands = devices.hands;
@@ -29,7 +22,8 @@ std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt)
   const std::optional<Velocity> velocity =
       drive.update(live ? std::optional(stick) : std::nullopt, dt);
   commanded = velocity.value_or(Velocity{});
-  const bool pushed = live && deflected(drive.shaped(stick));
+  const drive::Stick shaped = drive.shaped(stick);
+  const bool pushed = live && (shaped.x != 0.0 || shaped.y != 0.0);
   held_unarmed = pushed && enabled && !drive.armed();
   pushed_disabled = pushed && !enabled && !held;
   // The last command of a lost stick is zero; none follows it.
@@ -39,6 +33,7 @@ std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt)
 
 /// What the person asked for stays the measure of being stuck.
 void Guide::Parts::limit(Velocity& command, const Observation& now) const {
+  constexpr double kLateShare = 0.25;  // of a command by a stick that comes late
   double share = 1.0;
   const double speed = std::abs(command.linear);
   if (const double most = drive::fastest(now.connection.foresight, command, now.nearby);

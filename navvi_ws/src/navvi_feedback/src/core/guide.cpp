@@ -7,39 +7,33 @@
 #include "lead/course.hpp"
 
 namespace navvi_feedback::core {
-namespace {
 
-constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
+GuideConfig::GuideConfig() : values_(Values()) {}
 
-}  // namespace
-
-GuideConfig::GuideConfig() : values_(std::make_unique<Values>()) {}
-GuideConfig::GuideConfig(const GuideConfig& other)
-    : values_(std::make_unique<Values>(*other.values_)) {}
-GuideConfig& GuideConfig::operator=(const GuideConfig& other) {
-  *values_ = *other.values_;
-  return *this;
+GuideConfig::Values* GuideConfig::operator->() { return std::any_cast<Values>(&values_); }
+const GuideConfig::Values* GuideConfig::operator->() const {
+  return std::any_cast<Values>(&values_);
 }
-GuideConfig::~GuideConfig() = default;
 
 void GuideConfig::describe(navvi_config::Visitor& visit) {
-  visit(values_->lead, "lead", navvi_config::OneOf{{"words", "ticks", "flow", "hand"}}, "",
+  Values* const values = operator->();
+  visit(values->lead, "lead", navvi_config::OneOf{{"words", "ticks", "flow", "hand"}}, "",
         "what leads along the way: words; ticks that count turns down, and words; flow, a sound "
         "that lasts, its side where to steer, its pitch how fast; hand, pulses of the motors, "
         "likewise, without any sound");
-  visit.group("link", values_->link);
-  visit.group("drive", values_->drive);
-  visit.group("buttons", values_->buttons);
-  visit.group("haptics", values_->haptics);
-  visit.group("sounds", values_->sounds);
-  visit.group("cues", values_->cues);
+  visit.group("link", values->link);
+  visit.group("drive", values->drive);
+  visit.group("buttons", values->buttons);
+  visit.group("haptics", values->haptics);
+  visit.group("sounds", values->sounds);
+  visit.group("cues", values->cues);
 }
 
-bool GuideConfig::has_sounds() const { return values_->sounds.enabled; }
+bool GuideConfig::has_sounds() const { return (*this)->sounds.enabled; }
 
 std::string GuideConfig::lead(bool audible) const {
-  const haptics::HapticsConfig& touch = values_->haptics;
-  return !audible && touch.enabled && touch.instead_of_words ? "hand" : values_->lead;
+  const haptics::HapticsConfig& touch = (*this)->haptics;
+  return !audible && touch.enabled && touch.instead_of_words ? "hand" : (*this)->lead;
 }
 
 Guide::Parts::Parts(const GuideConfig::Values& config, const std::filesystem::path& file)
@@ -78,6 +72,7 @@ void Guide::Parts::take(const Scenario& scenario, double time) {
 }
 
 Output Guide::Parts::update(const Devices& devices, double time) {
+  constexpr double kLongestTick = 0.1;  // s; a longer delay is not made up for
   const double dt = std::clamp(time - last_update.value_or(time), 0.0, kLongestTick);
   last_update = time;
   Output out;

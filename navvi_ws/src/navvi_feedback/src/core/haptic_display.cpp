@@ -77,11 +77,10 @@ void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const Observation&
   for (const cues::Cue& cue : cues)
     if (const auto pattern = pattern_of(cue, deaf_); pattern && !(now.lead == Lead::hand && is_way(*pattern)))
       patterns_.begin(*pattern, side_of(*pattern, now.assistance));
-  for (const Contact& contact : now.contacts) {
+  for (const Contact& contact : now.contacts)
     patterns_.begin(cues::is_structure(contact.thing_class) ? haptics::Pattern::hit_shelf
                                                             : haptics::Pattern::hit_obstacle,
                     zone_of(contact));
-  }
 }
 
 bool HapticDisplay::feels_near(const Observation& now) const {

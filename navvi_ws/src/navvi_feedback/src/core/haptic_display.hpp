@@ -18,7 +18,6 @@ class HapticDisplay {
  public:
   explicit HapticDisplay(const haptics::HapticsConfig& config) : config_(config), near_(config) {}
 
-  /// From now on.
   void use(const haptics::HapticsConfig& config);
   /// \param pad  whose motors are moved
   void use_pad(const std::string& pad);

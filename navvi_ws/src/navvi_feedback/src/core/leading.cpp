@@ -3,11 +3,6 @@
 #include "core/guide_parts.hpp"
 
 namespace navvi_feedback::core {
-namespace {
-
-constexpr double kIdle = 6.0;  // s; who does not drive for so long needs no ticks to turn by
-
-}  // namespace
 
 /// As far as the person hears or feels it.
 Lead Guide::Parts::leading(const Observation& now) const {
@@ -47,6 +42,7 @@ AuditoryDisplay::Steering Guide::Parts::steering(const Observation& now, double 
 }
 
 std::optional<double> Guide::Parts::off_course(const Observation& now) const {
+  constexpr double kIdle = 6.0;  // s; who does not drive for so long needs no ticks to turn by
   if (teacher.speaks()) return teacher.taught().off;
   const bool awake = lasts(now.lead) || idle <= kIdle;
   const bool led = now.links.guidance == Link::alive && policy.leads() && awake;

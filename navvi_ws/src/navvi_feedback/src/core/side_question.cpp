@@ -3,13 +3,6 @@
 #include <cmath>
 
 namespace navvi_feedback::core {
-namespace {
-
-constexpr double kEvery = 1.2;      // s, between two sounds
-constexpr double kPatience = 12.0;  // s
-constexpr double kAside = 0.5;      // of the stick
-
-}  // namespace
 
 std::optional<bool> SideQuestion::end(std::optional<bool> right) {
   over_ = true;
@@ -18,6 +11,9 @@ std::optional<bool> SideQuestion::end(std::optional<bool> right) {
 }
 
 std::optional<bool> SideQuestion::update(bool may, bool quiet, double aside, double time) {
+  constexpr double kEvery = 1.2;      // s, between two sounds
+  constexpr double kPatience = 12.0;  // s
+  constexpr double kAside = 0.5;      // of the stick
   sounds_.reset();
   asks_ = may && !over_;
   // Whoever begins the trial does not want to be asked again.

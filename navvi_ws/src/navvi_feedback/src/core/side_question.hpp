@@ -18,7 +18,6 @@ class SideQuestion {
   [[nodiscard]] std::optional<bool> update(bool may, bool quiet, double aside, double time);
   /// The words were heard to their end.
   void told() { told_ = true; }
-  /// It is not answered yet.
   [[nodiscard]] bool asks() const { return asks_; }
   /// The sound is due now, from there: 1 left, -1 right.
   [[nodiscard]] std::optional<double> sounds() const { return sounds_; }

@@ -393,7 +393,7 @@ TEST(Situations, thirty_thousand_at_random_leave_nothing_that_matters_unsaid_ove
 
 TEST(Situations, the_judge_sees_a_broken_rule) {
   GuideConfig late;
-  late->cues.state_hold = 3.0;
+  late->link.delay = 3.0;
   EXPECT_EQ(judge(500, late).complaints.count("unsaid: no_route"), 1U);
   GuideConfig again;
   again->cues.same_text = 0.0;

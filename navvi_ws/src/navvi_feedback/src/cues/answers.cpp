@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "cues/near_words.hpp"
-#include "cues/state_cues.hpp"
 #include "cues/surroundings.hpp"
 #include "cues/way_words.hpp"
 

@@ -26,7 +26,6 @@ class Answers {
 
   /// These words have begun.
   void heard(const Content& content);
-  /// They were not heard.
   void lost(const Content& content);
 
  private:

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "cues/clock_face.hpp"
 #include "cues/side.hpp"
 
 namespace navvi_feedback::cues {

@@ -5,14 +5,9 @@
 #include "cues/surroundings.hpp"
 
 namespace navvi_feedback::cues {
-namespace {
-
-/// s; the same thing again within it is the same collision.
-constexpr double kSameHit = 1.5;
-
-}  // namespace
 
 Utterances CollisionCues::update(const std::vector<Contact>& contacts, double time) {
+  constexpr double kSameHit = 1.5;  // s; the same thing again within it is the same collision.
   for (auto hit = hit_.begin(); hit != hit_.end();)
     hit = time - hit->second >= kSameHit ? hit_.erase(hit) : std::next(hit);
   Utterances told;

@@ -47,7 +47,6 @@ constexpr double kLate = 0.5;
 /// m, from a corner to what stands behind it.
 constexpr double kBehindCorner = 0.5;
 
-/// What the robot does, or is about to do.
 Velocity drives(const Observation& now) {
   const Velocity measured = now.measured.value_or(Velocity{});
   return std::abs(now.commanded.linear) > std::abs(measured.linear) ? now.commanded : measured;

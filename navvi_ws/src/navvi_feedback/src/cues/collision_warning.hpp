@@ -69,7 +69,6 @@ class CollisionWarning {
   /// as it does, or, of what moves about, that it drives where it is led
   [[nodiscard]] bool comes(const Observation& now, double time) const;
 
-  /// The warning was not heard.
   void lost() { last_.of.reset(); }
 
  private:

@@ -27,13 +27,11 @@ struct Cue : Content {
   std::vector<sounds::Play> scan = {};
   std::string lesson = {};  ///< key of the text, where a lesson says it
 
-  /// As CueEvent::word().
   [[nodiscard]] std::string word() const {
     return kind == CueKind::lesson ? lesson : to_string(static_cast<Content>(*this));
   }
 };
 
-/// When each content was last said.
 class LastSaid {
  public:
   void note(const Content& content, double time) { said_[content] = time; }

@@ -37,8 +37,6 @@ void CuePolicyConfig::describe(navvi_config::Visitor& visit) {
   visit(stuck_time, "stuck_time", Range{0.2, 30.0}, "s",
         "commanded without moving for longer is stuck");
   visit(stuck_repeat, "stuck_repeat", Range{1.0, 60.0}, "s", "repeats while the robot stays stuck");
-  visit(state_hold, "state_hold", Range{0.0, 5.0}, "s",
-        "a state of the guidance shorter than this is passed over, but not a wait that is near");
   visit(same_text, "same_text", Range{0.0, 60.0}, "s",
         "a reminder in the same words is only felt within");
   visit.group("wording", wording);

@@ -9,7 +9,6 @@ namespace navvi_feedback::cues {
 /// s, after words that found no room, before they are said again.
 inline constexpr double kTryAgain = 0.3;
 
-/// How things are worded, in any language.
 struct WordingConfig {
   std::string directions =
       "clock";  ///< clock "3 o'clock", left_right "right", degrees "90 degrees right"
@@ -91,7 +90,6 @@ struct CuePolicyConfig {
   static constexpr double kStuckAngular = 0.1;  ///< rad/s, slower counts as not turning
   double stuck_repeat = 2.5;     ///< s
   static constexpr double kBlockerGap = 0.5;  ///< m, a thing farther away is not what blocks
-  double state_hold = 0.5;       ///< s
   static constexpr double kProblemRepeat = 15.0;  ///< s, repeats while the guidance does not lead
   /// s, a link that never lived for so long counts as lost
   static constexpr double kPatience = 10.0;

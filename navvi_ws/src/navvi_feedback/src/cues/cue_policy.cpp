@@ -194,7 +194,6 @@ void CuePolicy::note(const std::vector<CueEvent>& events) {
   }
 }
 
-/// It was not heard.
 void CuePolicy::lost(const CueEvent& event) {
   const Content content = event.content().value_or(CueKind::lesson);
   phrasing_.forget(event);

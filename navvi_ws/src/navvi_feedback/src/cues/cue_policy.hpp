@@ -31,7 +31,6 @@ class CuePolicy {
   /// \return the cues decided now, most urgent first
   [[nodiscard]] std::vector<Cue> update(const Observation& now, const Asked& asked, double time);
 
-  /// From now on.
   void use(const WordingConfig& wording) { phrasing_.use(wording); }
 
   /// What the person is to do now; in few words where that is the way, as they stand on a plate.

@@ -7,7 +7,6 @@
 namespace navvi_feedback::cues {
 namespace {
 
-/// Waiting below `important`.
 constexpr std::size_t kMaxWaiting = 2;
 
 CueEvent event(std::uint32_t id, CueStage stage, const Cue& cue) {

@@ -49,7 +49,6 @@ class Halt {
   }
   /// A person has not obeyed it yet.
   [[nodiscard]] bool fresh(double time) const { return halted() && time - said_ < kObeyed; }
-  /// The last word to stop.
   [[nodiscard]] const Utterance& words() const { return words_; }
 
  private:

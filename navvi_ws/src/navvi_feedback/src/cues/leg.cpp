@@ -7,19 +7,11 @@
 #include "cues/clock_face.hpp"
 
 namespace navvi_feedback::cues {
-namespace {
 
-/// m/s; a slower robot is about to turn on the spot.
-constexpr double kDrives = 0.1;
-
-/// s; a person who begins by themselves does so within that.
-constexpr double kStill = 3.0;
-/// m/s and rad/s; a command below these is neutral.
-constexpr Velocity kNeutral{0.02, 0.05};
-
-}  // namespace
-
-bool drives_on(const Observation& now) { return now.measured && now.measured->linear > kDrives; }
+bool drives_on(const Observation& now) {
+  constexpr double kTurns = 0.1;  // m/s; a slower robot is about to turn on the spot
+  return now.measured && now.measured->linear > kTurns;
+}
 
 std::optional<CueKind> straying(const Observation& now, std::optional<CueKind> was,
                                 const StrayConfig& config) {
@@ -40,6 +32,7 @@ bool Stray::due(const Observation& now, const StrayConfig& config, double time) 
 }
 
 void StillHand::observe(const Observation& now, double time) {
+  constexpr Velocity kNeutral{0.02, 0.05};  // m/s and rad/s; a command below these is neutral
   const bool drives = std::abs(now.commanded.linear) > kNeutral.linear;
   const bool turns = std::abs(now.commanded.angular) > kNeutral.angular;
   driven = driven || drives;
@@ -51,6 +44,7 @@ void StillHand::observe(const Observation& now, double time) {
 }
 
 bool StillHand::due(double time, double again) const {
+  constexpr double kStill = 3.0;  // s; a person who begins by themselves does so within that
   return !driven && since && time - *since >= kStill && !(urged && time - *urged < again);
 }
 

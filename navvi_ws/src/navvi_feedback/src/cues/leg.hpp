@@ -105,7 +105,6 @@ struct Leg {
   Stray stray;
   StillHand hand;
 
-  /// A new goal is introduced.
   void begin(const Guidance& guidance);
   /// The robot has driven, or the path has changed.
   /// \param next  hour of the turn at the corner ahead, if it is near enough to be announced

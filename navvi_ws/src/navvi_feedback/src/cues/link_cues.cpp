@@ -4,16 +4,6 @@
 #include <utility>
 
 namespace navvi_feedback::cues {
-namespace {
-
-/// s; what dies with the simulator may be missed by so much before it.
-constexpr double kTogether = 0.3;
-/// s; what comes back twice within it flaps.
-constexpr double kFlaps = 20.0;
-/// s, of being alive, before what flaps counts as back.
-constexpr double kSteady = 5.0;
-
-}  // namespace
 
 Content lost_stick(const Observation& now) {
   const auto& states = now.devices.states;
@@ -28,6 +18,8 @@ Content lost_robot(const Observation& now) {
 }
 
 Link Flapping::judge(Link now, double time) {
+  constexpr double kFlaps = 20.0;  // s; what comes back twice within it flaps.
+  constexpr double kSteady = 5.0;  // s, of being alive, before what flaps counts as back.
   const bool comes_back = std::exchange(last_, now) == Link::lost && now == Link::alive;
   if (comes_back) flaps_ = time - std::exchange(back_, time) < kFlaps;
   const bool held = counts_ == Link::lost && now == Link::alive && flaps_;
@@ -36,6 +28,8 @@ Link Flapping::judge(Link now, double time) {
 }
 
 const Links& LinkCues::judge(const Observation& now, double time) {
+  // s; what dies with the simulator may be missed by so much before it.
+  constexpr double kTogether = 0.3;
   if (!first_) first_ = time;
   const bool waited = time - *first_ > patience_;
   const auto judged = [&](Link link) { return link == Link::never && waited ? Link::lost : link; };

@@ -35,7 +35,6 @@ class LinkCues {
 
   /// Call it once a tick, first. \param time  s, monotonic \return the links as judged
   const Links& judge(const Observation& now, double time);
-  /// What has changed since the last tick.
   [[nodiscard]] Utterances update(const Observation& now);
 
   /// Without a stick no path can be followed; its return is said first, then the direction.

@@ -31,7 +31,6 @@ class NearCues {
   /// \param time  s, of a clock that does not run backwards
   [[nodiscard]] Utterances update(const Observation& now, bool all, Hold hold, double time);
 
-  /// As CollisionWarning::comes().
   [[nodiscard]] bool comes(const Observation& now, double time) const {
     return warning_.comes(now, time);
   }
@@ -46,7 +45,6 @@ class NearCues {
     double last_near = 0.0;  ///< s, when the thing was last within reach
   };
 
-  /// What may be said now.
   struct Candidate {
     Utterance utterance;
     double gap = 0.0;  ///< m

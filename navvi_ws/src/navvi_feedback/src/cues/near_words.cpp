@@ -14,20 +14,9 @@ constexpr double kAround = 3.0;
 }  // namespace
 
 sounds::Earcon earcon_of(ThingClass thing) {
-  using sounds::Earcon;
-  switch (thing) {
-    case ThingClass::shelf:
-    case ThingClass::wall:
-      return Earcon::shelf_near;
-    case ThingClass::worker:
-      return Earcon::worker_near;
-    case ThingClass::forklift:
-      return Earcon::forklift_near;
-    case ThingClass::pallet_robot:
-      return Earcon::pallet_robot_near;
-    default:
-      return Earcon::thing_near;
-  }
+  const std::string name = to_string(is_structure(thing) ? ThingClass::shelf : thing);
+  return navvi_types::from_word<sounds::Earcon>(name + "_near")
+      .value_or(sounds::Earcon::thing_near);
 }
 
 std::optional<sounds::Play> instead_of(const Utterance& utterance, const Sounds& sounds) {

@@ -9,7 +9,6 @@
 
 namespace navvi_feedback::cues {
 
-/// The sound of what is near.
 [[nodiscard]] sounds::Earcon earcon_of(ThingClass thing);
 
 /// What is heard instead of such words, where sounds do their work.

@@ -16,7 +16,6 @@ class NoticeCues {
 
   [[nodiscard]] Utterances update(const Tick& tick);
 
-  /// The end of a trial was said.
   [[nodiscard]] bool trial_over() const { return trial_over_.has_value(); }
   /// And just now: the session may be about to end, too.
   [[nodiscard]] bool trial_just_over(double time) const {

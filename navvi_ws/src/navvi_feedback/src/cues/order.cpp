@@ -1,7 +1,6 @@
 #include "cues/order.hpp"
 
 #include "cues/link_cues.hpp"
-#include "cues/state_cues.hpp"
 
 namespace navvi_feedback::cues {
 namespace {

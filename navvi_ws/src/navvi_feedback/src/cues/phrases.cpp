@@ -1,11 +1,8 @@
 #include "cues/phrases.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <iterator>
-#include <navvi_types/spoken.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -19,6 +16,7 @@ using navvi_config::ConfigError;
 using navvi_types::kMaxName;
 using navvi_types::kMaxNameWord;
 using navvi_types::kMaxWord;
+using navvi_types::names;
 
 constexpr int kMostPlaces = 999;          // of one name that are told by number
 
@@ -32,7 +30,6 @@ const std::set<std::string> kNaming = {"menu_place", "goal_chosen", "goal_sure",
                                        "press_pick", "press_drop", "press_scan",
                                        "zone_keep_out", "zone_slow", "zone_rack"};
 
-constexpr std::array<const char*, 4> kSides = {"ahead", "left", "behind", "right"};
 constexpr std::array<const char*, 3> kDirections = {"clock", "left_right", "degrees"};
 
 /// All classes that can be spoken of: no message holds the floor.
@@ -45,7 +42,7 @@ std::set<std::string> word_keys() {
   std::set<std::string> keys = {"meter", "meters", "foot", "feet", "percent"};
   for (const char* thing : things()) keys.insert({thing, std::string("a_") + thing});
   for (const std::string& hands : kHands) keys.insert({"pad_" + hands, "key_" + hands});
-  for (const char* side : kSides) {
+  for (const char* side : names(Side{})) {
     keys.insert(std::string("side_") + side);
     keys.insert(std::string("where_") + side);
   }
@@ -103,7 +100,6 @@ std::string limits() {
          "word.";
 }
 
-/// One section of the phrase file, key by key.
 class Section {
  public:
   Section(const std::string& file, const YAML::Node& root, const std::string& name)
@@ -317,7 +313,7 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     return words_.at((fillings.keys ? "key_" : "pad_") + placeholder);
   if (placeholder == "side" || placeholder == "where") {
     if (!fillings.side) throw missing();
-    return words_.at(placeholder + "_" + kSides.at(static_cast<std::size_t>(*fillings.side)));
+    return words_.at(placeholder + "_" + navvi_types::to_string(*fillings.side));
   }
   if (placeholder == "place") {
     if (!fillings.place_name.empty()) {

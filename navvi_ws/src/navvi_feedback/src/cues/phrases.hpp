@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <navvi_types/names.hpp>
@@ -22,9 +21,6 @@ using navvi_types::speakable;
 /// Where a person can go: the parts of the world as in navvi_types::Place, the task's goal, the
 /// last ones, and those that they had remembered.
 enum class PlaceName { dock, aisle, cross_aisle, room, task, last, remembered };
-[[nodiscard]] constexpr std::array<const char*, 7> names(PlaceName) {
-  return {"dock", "aisle", "cross_aisle", "room", "task", "last", "remembered"};
-}
 
 /// What a person can set while driving, and to what, besides numbers.
 enum class SettingName {
@@ -43,15 +39,7 @@ enum class SettingName {
   beacon,
   hold,
 };
-[[nodiscard]] constexpr std::array<const char*, 14> names(SettingName) {
-  return {"rate",      "volume",        "strength",   "verbosity",   "touch",
-          "way_words", "near_words",    "lead",       "shelf_sound", "near_sound",
-          "hit_sound", "arrival_sound", "beacon",     "hold"};
-}
 enum class SettingValue { off, on, brief, normal, full, words, ticks, flow, hand };
-[[nodiscard]] constexpr std::array<const char*, 9> names(SettingValue) {
-  return {"off", "on", "brief", "normal", "full", "words", "ticks", "flow", "hand"};
-}
 
 /// What is put into a phrase: numbers, words of fixed sets, and names that a PersonFile or a file
 /// of places may hold.
@@ -105,7 +93,6 @@ class Phrases {
   [[nodiscard]] std::string say(const Content& content, const Fillings& fillings = {},
                                 bool again = false) const;
 
-  /// From now on.
   void use(const WordingConfig& wording) { wording_ = wording; }
   [[nodiscard]] const WordingConfig& wording() const { return wording_; }
 

@@ -19,7 +19,6 @@ class Phrasing {
     use(phrases_.wording());
   }
 
-  /// From now on.
   void use(const WordingConfig& wording);
 
   /// \return the most urgent first

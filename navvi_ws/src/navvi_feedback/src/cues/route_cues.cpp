@@ -8,12 +8,6 @@
 #include "cues/way_words.hpp"
 
 namespace navvi_feedback::cues {
-namespace {
-
-/// m; a goal that moved less is the same goal.
-constexpr double kSameGoal = 0.5;
-
-}  // namespace
 
 Utterances RouteCues::update(const Observation& now, bool halted, double time) {
   const Guidance& guidance = *now.guidance;
@@ -132,6 +126,7 @@ void RouteCues::lost(CueKind kind, double time) {
 }
 
 bool RouteCues::is_new_goal(const Guidance& guidance) const {
+  constexpr double kSameGoal = 0.5;  // m; a goal that moved less is the same goal.
   return !goal_ || (guidance.goal - *goal_).norm() > kSameGoal;
 }
 

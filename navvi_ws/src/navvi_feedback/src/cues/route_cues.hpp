@@ -51,16 +51,13 @@ class RouteCues {
   /// The path is gone: when there is one again, say where it leads.
   /// \param goal_gone  the goal, too: the next one is introduced
   void pause(bool goal_gone);
-  /// Takes note of what became of words of this kind.
   void note(CueKind kind, CueStage stage);
-  /// They were not heard.
   void lost(CueKind kind, double time);
   /// Something else was said that makes a person stop: say the direction again from `time` on.
   void remind(double time) { leg_.reminder = time; }
 
   /// Straight ahead would lead into something near, or along it.
   [[nodiscard]] bool leads_off() const { return bearing_.leads_off(); }
-  /// How angles become hours.
   [[nodiscard]] Rounding rounding() const { return bearing_.rounding(); }
 
  private:

@@ -49,9 +49,7 @@ using Rule = Told (*)(const Look& look, Leg& leg);
 [[nodiscard]] Told make_room(const Look& look, Leg& leg);
 /// No more is said while the voice speaks.
 [[nodiscard]] Told listen(const Look& look, Leg& leg);
-/// The turn that was announced is not to be made.
 [[nodiscard]] Told cancel_turn(const Look& look, Leg& leg);
-/// A turn is near.
 [[nodiscard]] Told announce_turn(const Look& look, Leg& leg);
 
 /// A person who was told to go straight stands.

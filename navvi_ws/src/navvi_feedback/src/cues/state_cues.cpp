@@ -11,6 +11,8 @@ Content because(CueKind kind, Reason reason) {
   return {kind, navvi_types::from_word<About>(to_string(reason)).value()};
 }
 
+/// s; a state of the guidance that is shorter is passed over, but not a wait that is near.
+constexpr double kHold = 0.5;
 /// s, before a word to stop is followed by the word to wait.
 constexpr double kStopped = 3.0;
 /// s, of standing, before words say why.
@@ -139,7 +141,7 @@ double StateCues::hold(const Tick& tick, std::optional<double> halted) const {
   const bool starting = problem_ == CueKind::welcome ||
                         (!led_ && (problem_ == Content{CueKind::no_way, About::no_map} ||
                                    problem_ == Content{CueKind::no_way, About::pose_stale}));
-  return starting ? config_.kStarting : config_.state_hold;
+  return starting ? config_.kStarting : kHold;
 }
 
 }  // namespace navvi_feedback::cues

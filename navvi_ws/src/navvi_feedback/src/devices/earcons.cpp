@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 namespace navvi_feedback::devices {
 namespace {
@@ -14,7 +13,6 @@ constexpr double kTwoPi = 6.28318530717958647692;
 constexpr int kRate = 44100;       // Hz
 constexpr double kAttack = 0.003;  // s
 
-/// How a note sounds.
 enum class Voicing {
   flute,  ///< a sine and a little of its octave: it holds
   bell,   ///< the same, dying away
@@ -70,26 +68,22 @@ std::vector<Note> notes(sounds::Earcon earcon) {
       return twice({{V::knock, 130.0, 80.0, 0.12}});
     case Earcon::shelf_near:
       return {{V::clang, 620.0, 620.0, 0.12}};
-    case Earcon::shelf_close:
-      return twice(notes(Earcon::shelf_near));
     case Earcon::worker_near:  // a whistle
       return {{V::flute, 900.0, 1500.0, 0.12}, {V::flute, 1500.0, 1100.0, 0.12}};
-    case Earcon::worker_close:
-      return twice(notes(Earcon::worker_near));
     case Earcon::forklift_near:  // as it sounds when it backs
       return {{V::horn, 1000.0, 1000.0, 0.13}, kRest, {V::horn, 1000.0, 1000.0, 0.13}};
-    case Earcon::forklift_close:
-      return twice(notes(Earcon::forklift_near));
     case Earcon::pallet_robot_near:  // three steps down
       return {{V::flute, 2000.0, 2000.0, 0.05},
               {V::flute, 1500.0, 1500.0, 0.05},
               {V::flute, 1000.0, 1000.0, 0.05}};
-    case Earcon::pallet_robot_close:
-      return twice(notes(Earcon::pallet_robot_near));
     case Earcon::thing_near:
       return {{V::knock, 420.0, 380.0, 0.1}};
+    case Earcon::shelf_close:
+    case Earcon::worker_close:
+    case Earcon::forklift_close:
+    case Earcon::pallet_robot_close:
     case Earcon::thing_close:
-      return twice(notes(Earcon::thing_near));
+      return twice(notes(static_cast<Earcon>(static_cast<int>(earcon) - 1)));
     case Earcon::arrived:
       return {{V::bell, 523.3, 523.3, 0.12},
               {V::bell, 659.3, 659.3, 0.12},

@@ -13,7 +13,6 @@ namespace navvi_feedback::devices {
 /// An earcon's samples, made of a few notes. It begins and ends without a click.
 [[nodiscard]] Sound synthesize(sounds::Earcon earcon);
 
-/// Plays earcons through the mixer.
 class EarconPlayer {
  public:
   /// \param mixer  outlives this

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <exception>
 #include <optional>
 #include <utility>
 
@@ -54,10 +52,9 @@ drive::InputState input_of(SDL_GameController* pad) {
   }
   for (const auto which : {SDL_CONTROLLER_AXIS_TRIGGERLEFT, SDL_CONTROLLER_AXIS_TRIGGERRIGHT})
     input.axes.push_back(std::max(0.0, axis(pad, which)));
-  for (int button = SDL_CONTROLLER_BUTTON_A; button <= SDL_CONTROLLER_BUTTON_DPAD_RIGHT; ++button) {
+  for (int button = SDL_CONTROLLER_BUTTON_A; button <= SDL_CONTROLLER_BUTTON_DPAD_RIGHT; ++button)
     input.buttons.push_back(
         SDL_GameControllerGetButton(pad, static_cast<SDL_GameControllerButton>(button)) != 0);
-  }
   return input;
 }
 

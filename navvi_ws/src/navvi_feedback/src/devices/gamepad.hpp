@@ -43,8 +43,6 @@ class Gamepad {
   Gamepad();
   /// Stops the motors.
   ~Gamepad();
-  Gamepad(const Gamepad&) = delete;
-  Gamepad& operator=(const Gamepad&) = delete;
 
   /// axes: left stick x, y, right stick x, y (left and forward positive), left and right trigger
   /// [0, 1]. buttons: SDL's order: south, east, west, north, back, guide, start, sticks,

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <navvi_types/names.hpp>
 #include <optional>
@@ -74,9 +73,5 @@ class InputSource {
   unsigned session_ = 0;               ///< of what is received
   std::optional<double> received_at_;  ///< s
 };
-
-[[nodiscard]] constexpr std::array<const char*, 3> names(InputSource::Kind) {
-  return {"pad", "keyboard", "topic"};
-}
 
 }  // namespace navvi_feedback::devices

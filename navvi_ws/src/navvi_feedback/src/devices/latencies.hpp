@@ -17,10 +17,6 @@ enum class Chain {
   answer,   ///< a button was seen, to the same
   silence   ///< words were decided to end, to a mix without them
 };
-/// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 6> names(Chain) {
-  return {"sensed", "motors", "pattern", "words", "answer", "silence"};
-}
 
 /// How long these took. For any threads.
 class Latencies {
@@ -36,7 +32,6 @@ class Latencies {
 
   /// Its effect is now.
   void add(Chain chain, Clock::time_point cause);
-  /// Forgets all.
   void clear();
   [[nodiscard]] Figures figures(Chain chain) const;
 
@@ -48,7 +43,7 @@ class Latencies {
   };
 
   mutable std::mutex mutex_;
-  std::array<Counts, names(Chain{}).size()> counts_;
+  std::array<Counts, navvi_types::names(Chain{}).size()> counts_;
 };
 
 }  // namespace navvi_feedback::devices

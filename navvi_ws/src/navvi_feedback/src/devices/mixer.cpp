@@ -132,11 +132,10 @@ void Mixer::open(Status::Device otherwise) {
   next_attempt_ = Clock::now() +
                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(wait));
   handles_->device = open_quietly(config_.device);
-  if (handles_->device == nullptr) {
+  if (handles_->device == nullptr)
     return report(otherwise, config_.device.empty()
                                  ? "OpenAL finds no audio device"
                                  : "OpenAL cannot open the device \"" + config_.device + "\"");
-  }
   const ALCint hrtf = config_.hrtf == "auto" ? ALC_DONT_CARE_SOFT
                       : config_.hrtf == "on" ? ALC_TRUE
                                              : ALC_FALSE;

@@ -22,7 +22,6 @@ struct MixerConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// Whether there is to be sound.
 enum class Audio {
   on,  ///< through a device, as soon and as long as there is one
   off  ///< silent by intent: no device is opened
@@ -47,8 +46,6 @@ class Mixer {
 
   Mixer(const MixerConfig& config, Audio audio);
   ~Mixer();
-  Mixer(const Mixer&) = delete;
-  Mixer& operator=(const Mixer&) = delete;
 
   /// Notices the loss of the device, and tries to open one again. It may take a second.
   void tend();

@@ -1,12 +1,10 @@
 #include "devices/speaker.hpp"
 
 #include <chrono>
-#include <future>
 #include <utility>
 
 #include "cues/phrases.hpp"
 #include "devices/earcons.hpp"
-#include "devices/voice.hpp"
 
 namespace navvi_feedback::devices {
 namespace {

@@ -43,8 +43,6 @@ class Speaker {
   /// \param mixer  outlives this \throws DeviceError with a sentence if the voice cannot be loaded
   Speaker(const SpeakerConfig& config, Mixer& mixer);
   ~Speaker();
-  Speaker(const Speaker&) = delete;
-  Speaker& operator=(const Speaker&) = delete;
 
   /// From the next text on. \param rate  words a minute, 80..449
   void set_rate(int rate);

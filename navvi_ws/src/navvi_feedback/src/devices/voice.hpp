@@ -39,7 +39,6 @@ class Voice {
   /// Between sentences: starts a process anew that was lost.
   void tend();
 
-  /// Whether there is a process that speaks.
   [[nodiscard]] bool works() const { return child_ != nullptr; }
   /// How often its process was lost.
   [[nodiscard]] unsigned losses() const { return losses_; }

@@ -29,7 +29,7 @@ unsigned presses(const InputState& last, const InputState& now, int button) {
 
 void ButtonsConfig::describe(navvi_config::Visitor& visit) {
   for (std::size_t i = 0; i < index.size(); ++i) {
-    const std::string name = names(Button{})[i];
+    const std::string name = navvi_types::names(Button{})[i];
     visit(index[i], name, navvi_config::Range{-1, 255}, "", "index of the button for it; -1: none");
   }
 }

@@ -79,11 +79,10 @@ double rumble_force(const HapticsConfig& config, double gap) {
 Haptics::Haptics(const HapticsConfig& config) : config_(config) {
   for (const std::string& word : config.classes) {
     const auto thing_class = navvi_types::from_word<ThingClass>(word);
-    if (!thing_class || thing_class == ThingClass::floor) {
+    if (!thing_class || thing_class == ThingClass::floor)
       throw navvi_config::ConfigError("haptics/classes: \"" + word +
                                       "\" is not a class of things; allowed are shelf, wall, box, "
                                       "pedestal, worker, forklift, pallet_robot and other");
-    }
     classes_.push_back(*thing_class);
   }
   for (const std::string& pad : config.pads) {

@@ -76,7 +76,6 @@ class Haptics {
   [[nodiscard]] std::optional<Zone> zone() const { return zone_; }
 
  private:
-  /// What is felt most, and how much.
   struct Felt {
     double lateral = 0.0;  ///< m, to the left
     double force = 0.0;    ///< [0, 1]

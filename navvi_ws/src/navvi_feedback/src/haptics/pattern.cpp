@@ -8,7 +8,6 @@
 namespace navvi_feedback::haptics {
 namespace {
 
-/// Motors for a time.
 struct Beat {
   double seconds;
   double left;

@@ -4,14 +4,6 @@
 #include <utility>
 
 namespace navvi_feedback::lead {
-namespace {
-
-constexpr double kMuch = 0.5;     // rad, to be turned
-constexpr double kAway = 0.8;     // rad, turned away in one go
-constexpr double kTurns = 0.15;   // rad/s
-constexpr double kPatience = 6.0; // s
-
-}  // namespace
 
 void Following::miss() {
   ++missed_;
@@ -21,6 +13,10 @@ void Following::miss() {
 
 void Following::update(const std::optional<Course>& course, const navvi_types::Velocity& motion,
                        double time) {
+  constexpr double kMuch = 0.5;      // rad, to be turned
+  constexpr double kAway = 0.8;      // rad, turned away in one go
+  constexpr double kTurns = 0.15;    // rad/s
+  constexpr double kPatience = 6.0;  // s
   const double dt = time - std::exchange(time_, time);
   if (!course || std::abs(course->turn) < kMuch) {
     since_.reset();

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <navvi_files/printable.hpp>
 
 namespace navvi_feedback::lessons {
 namespace {
@@ -33,11 +33,7 @@ bool pressed(const Observation& seen, Button button) {
   return std::find(seen.pressed.begin(), seen.pressed.end(), button) != seen.pressed.end();
 }
 
-std::string number(double value) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
+std::string number(double value) { return navvi_files::fixed(value, 2); }
 
 }  // namespace
 

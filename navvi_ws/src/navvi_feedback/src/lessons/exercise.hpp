@@ -24,7 +24,6 @@ enum class Task {
   goal,       ///< a trial
 };
 
-/// One step of the tutorial.
 struct Step {
   const char* name;  ///< also in the keys of its texts
   Task task;
@@ -71,7 +70,6 @@ using Exercise = std::function<Verdict(const Instant& now)>;
 /// The stick is let go, and the robot stands now.
 [[nodiscard]] bool stands(const Observation& seen);
 
-/// The key of a text of the tutorial.
 [[nodiscard]] std::string tutorial_key(const std::string& name);
 
 }  // namespace navvi_feedback::lessons

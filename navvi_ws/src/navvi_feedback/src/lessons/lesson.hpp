@@ -39,7 +39,6 @@ class Lesson {
 
   /// Call it at 50 Hz. \param time  s, of a clock that does not run backwards
   [[nodiscard]] virtual Taught update(const Observation& seen, double time) = 0;
-  /// Nothing more comes.
   [[nodiscard]] virtual bool over() const = 0;
   /// The stick moves the robot.
   [[nodiscard]] virtual bool drives() const { return false; }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <navvi_files/printable.hpp>
 #include <regex>
 
 #include "cues/clock_face.hpp"
@@ -253,9 +253,8 @@ std::string Questionnaire::record() const {
   std::string table = "item,answer,seconds\n";
   for (std::size_t i = 0; i < questions_.size(); ++i) {
     if (answers_[i].given.empty()) continue;
-    char seconds[32];
-    std::snprintf(seconds, sizeof seconds, "%.1f", answers_[i].seconds);
-    table += questions_[i].name + "," + answers_[i].given + "," + seconds + "\n";
+    table += questions_[i].name + "," + answers_[i].given + "," +
+             navvi_files::fixed(answers_[i].seconds, 1) + "\n";
   }
   return table;
 }

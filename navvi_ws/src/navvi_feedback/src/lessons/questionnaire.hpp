@@ -31,7 +31,6 @@ class Pointing {
   bool taken_ = true;             ///< nothing more is taken until it is at rest
 };
 
-/// One question, and all that can be answered.
 struct Question {
   std::string name;                 ///< in the record: letters, digits, - and _
   std::string ask;                  ///< sentences

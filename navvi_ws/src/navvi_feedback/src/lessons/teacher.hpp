@@ -33,14 +33,12 @@ class Teacher {
   /// with the beginning of a trial. \param time  s, of a clock that does not run backwards
   void update(const Observation& seen, double time);
 
-  /// A lesson is given now.
   [[nodiscard]] bool teaching() const { return lesson_ && !lesson_->over(); }
   /// The first lesson wants no robot: nothing else goes on.
   [[nodiscard]] bool alone() const { return first_ != "none" && first_ != "tutorial"; }
   /// The stick does not move the robot.
   [[nodiscard]] bool holds() const { return teaching() && !lesson_->drives(); }
   [[nodiscard]] bool speaks() const { return teaching() && lesson_->speaks(); }
-  /// The button is for the lesson alone.
   [[nodiscard]] bool takes(drive::Button button) const {
     return teaching() && lesson_->takes(button);
   }
@@ -48,11 +46,8 @@ class Teacher {
   /// Leaves what may be said while a lesson speaks, and adds what the lesson says.
   void join(std::vector<cues::Cue>& cues) const;
 
-  /// The first lesson is over.
   [[nodiscard]] bool over() const { return first_ != "none" && lesson_ && lesson_->over(); }
-  /// As Lesson::record().
   [[nodiscard]] std::string record() const { return lesson_ ? lesson_->record() : ""; }
-  /// As Lesson::settings().
   [[nodiscard]] std::vector<std::string> settings() const {
     return lesson_ ? lesson_->settings() : std::vector<std::string>();
   }

@@ -47,7 +47,7 @@ std::vector<std::string> Teller::sentences(const std::string& key, const Filling
   for (std::size_t i = 0; i < drive::kButtons; ++i) {
     const auto name = phrases_.lessons().find((keyboard_ ? "key_" : "pad_") +
                                               std::to_string(buttons_.index.at(i)));
-    text = replaced(text, names(drive::Button{}).at(i),
+    text = replaced(text, navvi_types::names(drive::Button{}).at(i),
                     name == phrases_.lessons().end() ? "-" : name->second);
   }
   for (const auto& [name, value] : fillings) text = replaced(text, name, value);

@@ -6,15 +6,7 @@
 #include <sstream>
 
 namespace navvi_feedback::lessons {
-namespace {
-
 using drive::Button;
-
-constexpr double kIdle = 15.0;        // s without a try, before it is told again
-constexpr int kManyTries = 4;         // after which the ways out are told once more
-constexpr double kLongestTick = 0.1;  // s
-
-}  // namespace
 
 const std::vector<Step>& Tutorial::steps() {
   static const std::vector<Step> all = {
@@ -149,6 +141,7 @@ void Tutorial::buttons(const Observation& seen) {
 }
 
 Taught Tutorial::update(const Observation& seen, double time) {
+  constexpr double kLongestTick = 0.1;  // s
   const double dt = std::clamp(time - time_, 0.0, kLongestTick);
   time_ = time;
   trial_ = seen.trial;
@@ -179,8 +172,9 @@ Taught Tutorial::update(const Observation& seen, double time) {
   return taught;
 }
 
-/// A try.
 void Tutorial::act(const Observation& seen, double dt, Taught& taught) {
+  constexpr double kIdle = 15.0;  // s without a try, before it is told again
+  constexpr int kManyTries = 4;   // after which the ways out are told once more
   const bool to_goal = step().task == Task::goal;
   in_trial_ = in_trial_ || (to_goal && seen.trial == TrialState::State::running);
   moved_.observe(seen, dt, time_);

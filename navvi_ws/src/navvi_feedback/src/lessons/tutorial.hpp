@@ -20,7 +20,6 @@ class Tutorial : public Lesson {
   /// The keys of all texts.
   [[nodiscard]] static std::vector<std::string> texts();
 
-  /// How a step went.
   struct Result {
     std::string step;
     int tries = 1;

@@ -1,16 +1,8 @@
 #include "link/delay_line.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace navvi_feedback::link {
-namespace {
-
-constexpr double kAgain = 0.2;   // s, after which a packet is sent again at the earliest (Linux)
-constexpr double kEvery = 60.0;  // s, from one outage to the next
-constexpr double kOutageAt = 30.0;  // s of each such time; alike for all that is sent
-
-}  // namespace
 
 void LinkConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -26,6 +18,8 @@ void LinkConfig::describe(navvi_config::Visitor& visit) {
 }
 
 double Channel::outage_left(double sent) const {
+  constexpr double kEvery = 60.0;     // s, from one outage to the next
+  constexpr double kOutageAt = 30.0;  // s of each such time; alike for all that is sent
   const double since = std::fmod(sent, kEvery) - kOutageAt;
   return since >= 0.0 && since < config_.outage ? config_.outage - since : 0.0;
 }
@@ -36,6 +30,7 @@ double Channel::way() {
 }
 
 double Channel::in_stream(double sent) {
+  constexpr double kAgain = 0.2;  // s, after which a packet is sent again at the earliest (Linux)
   double at = sent + outage_left(sent) + way();
   if (config_.loss > 0.0 && random_.chance(config_.loss))
     at += std::max(kAgain, 2.0 * config_.delay);

@@ -59,7 +59,6 @@ class Menu {
   [[nodiscard]] bool open() const { return !path_.empty(); }
 
  private:
-  /// A place that a person can choose as goal.
   struct Destination {
     cues::PlaceName name = cues::PlaceName::task;
     int number = 0;                                ///< 0: there is one of that name

@@ -43,7 +43,6 @@ NamedPlace read_place(const std::string& file, const YAML::Node& item) {
   return place;
 }
 
-/// Names that differ in capital letters alone sound the same.
 std::string sound_of(std::string name) {
   std::transform(name.begin(), name.end(), name.begin(), [](char letter) {
     const auto byte = static_cast<unsigned char>(letter);

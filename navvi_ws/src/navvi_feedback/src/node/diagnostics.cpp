@@ -1,8 +1,7 @@
 #include "node/diagnostics.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <navvi_files/printable.hpp>
 
 namespace navvi_feedback::node {
 namespace {
@@ -25,9 +24,7 @@ void add(DiagnosticStatus& to, const std::string& key, const std::string& value)
 }
 
 void add(DiagnosticStatus& to, const std::string& key, double value, int decimals) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  add(to, key, text.data());
+  add(to, key, navvi_files::fixed(value, decimals));
 }
 
 DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
@@ -38,10 +35,9 @@ DiagnosticStatus own_pad(const devices::Gamepad::Status& pad) {
                   "The game controller is connected, but its link is silent.");
   if (!pad.has_rumble)
     return status("navvi/pad", DiagnosticStatus::WARN, "This game controller has no rumble.");
-  if (pad.jolting_firmware) {
+  if (pad.jolting_firmware)
     return status("navvi/pad", DiagnosticStatus::WARN,
                   "The controller's firmware starts each rumble with a jolt; update it.");
-  }
   if (pad.rumble_errors > 0)
     return status("navvi/pad", DiagnosticStatus::WARN, "Some rumble commands were refused.");
   return status("navvi/pad", DiagnosticStatus::OK, "Connected.");
@@ -121,7 +117,7 @@ DiagnosticStatus beat_status(const Beat& beat) {
 DiagnosticStatus latency_status(const devices::Latencies& latencies,
                                 const std::optional<sounds::Learnt>& learnt) {
   DiagnosticStatus result = status("navvi/latency", DiagnosticStatus::OK, "In ms.");
-  for (std::size_t i = 0; i < names(devices::Chain{}).size(); ++i) {
+  for (std::size_t i = 0; i < navvi_types::names(devices::Chain{}).size(); ++i) {
     const auto chain = static_cast<devices::Chain>(i);
     const devices::Latencies::Figures figures = latencies.figures(chain);
     if (figures.count == 0) continue;

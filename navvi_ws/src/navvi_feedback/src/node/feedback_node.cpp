@@ -178,9 +178,8 @@ bool await_master() {
 }
 
 void spin(FeedbackNode& node) {
-  while (ros::ok() && g_stop == 0) {
+  while (ros::ok() && g_stop == 0)
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-  }
   if (!ros::ok()) return;
   node.finish();
   ros::WallDuration(0.05).sleep();  // lets the last messages leave

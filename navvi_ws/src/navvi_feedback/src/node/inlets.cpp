@@ -18,13 +18,6 @@ using drive::StickAge;
 using navvi_types::from_msg;
 using navvi_types::to_ns;
 
-namespace {
-
-constexpr float kBatteryLow = 0.15F;   // of its charge
-constexpr float kBatteryFull = 0.20F;  // from which it is not low any more
-
-}  // namespace
-
 Inlets::Inlets(ros::NodeHandle& node, const NodeConfig& config, core::Guide& guide,
                PersonDevices& devices, Beat beat)
     : node_(node),
@@ -93,6 +86,8 @@ void Inlets::receive(drive::InputState joy, InputSource& source) {
 }
 
 void Inlets::subscribe_to_robot(const NodeConfig& config) {
+  constexpr float kBatteryLow = 0.15F;   // of its charge
+  constexpr float kBatteryFull = 0.20F;  // from which it is not low any more
   if (!config.emergency_stop.empty())
     subscribers_.push_back(node_.subscribe<std_msgs::Bool>(
         config.emergency_stop, 10,

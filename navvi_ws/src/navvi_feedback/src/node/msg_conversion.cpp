@@ -4,13 +4,9 @@
 #include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_feedback::node {
-namespace {
-
-constexpr float kAxisSlack = 1e-3F;  // of an axis beyond [-1, 1]
-
-}  // namespace
 
 navvi_types::Checked<drive::InputState> from_msg(const sensor_msgs::Joy& msg) {
+  constexpr float kAxisSlack = 1e-3F;  // of an axis beyond [-1, 1]
   if (msg.axes.size() < 2 || msg.axes.size() > 64 || msg.buttons.size() > 256)
     return navvi_types::Refusal{
         "it has fewer than 2 or more than 64 axes, or more than 256 buttons"};

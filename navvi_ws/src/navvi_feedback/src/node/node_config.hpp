@@ -20,7 +20,6 @@ struct PersonConfig {
   void describe(navvi_config::Visitor& visit);
 };
 
-/// The parameters of feedback_node.
 struct NodeConfig : PersonConfig {
   std::string input = "auto";
   bool speech = true;

@@ -16,7 +16,6 @@
 
 namespace navvi_feedback::node {
 
-/// The topics that feedback_node publishes.
 class Outlets {
  public:
   /// \param own_hands  the stick is our own device, whose state is published; another driver's joy

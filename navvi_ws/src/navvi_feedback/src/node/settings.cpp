@@ -2,7 +2,6 @@
 
 #include <ros/ros.h>
 
-#include <navvi_config/ros_parameters.hpp>
 #include <navvi_files/files.hpp>
 
 namespace navvi_feedback::node {

@@ -43,7 +43,6 @@ class Saver {
     return failures;
   }
 
-  /// Waits until all is saved.
   [[nodiscard]] std::vector<Failure> finish() {
     std::vector<Failure> failures;
     while (saving_.valid() || !unsaved_.empty()) {

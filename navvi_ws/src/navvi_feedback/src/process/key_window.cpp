@@ -105,7 +105,6 @@ class KeyWindow {
   /// \return empty, or a sentence on what failed
   [[nodiscard]] std::string open();
   [[nodiscard]] drive::InputState read();
-  /// Hides for a second.
   void give_way() { gave_way_ = Clock::now(); }
 
  private:

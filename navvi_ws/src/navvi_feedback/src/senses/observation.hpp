@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +18,6 @@ enum class Lead {
   flow,   ///< a sound that lasts: its side where to steer, its pitch how fast
   hand,   ///< pulses of the motors, likewise
 };
-[[nodiscard]] constexpr std::array<const char*, 4> names(Lead) {
-  return {"words", "ticks", "flow", "hand"};
-}
 /// It leads while the person drives, without a stop before a turn.
 [[nodiscard]] constexpr bool lasts(Lead lead) { return lead == Lead::flow || lead == Lead::hand; }
 

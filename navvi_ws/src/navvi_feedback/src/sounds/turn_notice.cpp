@@ -4,19 +4,15 @@
 #include <cmath>
 
 namespace navvi_feedback::sounds {
-namespace {
-
-constexpr double kBefore = 2.5;     // s, to the corner
-constexpr double kLeast = 0.35;     // rad; a smaller turn is no news
-constexpr double kATick = 0.52;     // rad, 30 degrees
-constexpr int kMost = 6;            // ticks
-constexpr double kBeat = 0.16;      // s, from one tick to the next
-constexpr double kSameCorner = 1.0; // m
-
-}  // namespace
 
 std::optional<Play> TurnNotice::update(const Observation& now, bool leads, double volume,
                                        double time) {
+  constexpr double kBefore = 2.5;      // s, to the corner
+  constexpr double kLeast = 0.35;      // rad; a smaller turn is no news
+  constexpr double kATick = 0.52;      // rad, 30 degrees
+  constexpr int kMost = 6;             // ticks
+  constexpr double kBeat = 0.16;       // s, from one tick to the next
+  constexpr double kSameCorner = 1.0;  // m
   if (!leads || !now.guidance) {
     left_ = 0;
     return std::nullopt;

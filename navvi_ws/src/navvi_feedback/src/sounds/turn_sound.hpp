@@ -53,7 +53,6 @@ class TurnSound {
  public:
   explicit TurnSound(const TurnConfig& config) : config_(config), learning_(config) {}
 
-  /// From now on.
   void use(const TurnConfig& config) {
     config_ = config;
     learning_.use(config);
@@ -69,7 +68,6 @@ class TurnSound {
 
   /// The person takes its sounds for those of the other side: it is silent from now on.
   void find_sides_wrong() { learning_.found_sides_wrong(); }
-  /// It is counting now.
   [[nodiscard]] bool sounds() const { return counting_.has_value(); }
   /// It does so where there is something to turn.
   [[nodiscard]] bool leads() const { return !learnt().words_lead; }

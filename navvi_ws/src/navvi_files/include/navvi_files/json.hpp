@@ -15,7 +15,6 @@ using JsonFields = std::vector<std::pair<std::string, std::string>>;
 /// \return null where the value is not finite
 [[nodiscard]] std::string json_number(double value, int digits = 6);
 [[nodiscard]] std::string json_list(const std::vector<std::string>& values);
-/// In the order of the fields.
 [[nodiscard]] std::string json_object(const JsonFields& fields);
 
 }  // namespace navvi_files

@@ -1,9 +1,18 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <string>
 
 namespace navvi_files {
+
+/// \param digits  after the point
+[[nodiscard]] inline std::string fixed(double value, int digits) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
 
 /// Sentences and names reach terminals and tables, and may cite what others wrote: a control
 /// character becomes a blank. \param lines  whether line ends stay

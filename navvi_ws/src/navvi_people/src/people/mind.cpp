@@ -4,16 +4,9 @@
 #include <cmath>
 
 namespace navvi_people::people {
-namespace {
-
-constexpr double kUsualSpeed = 0.8;    // of the stick
-constexpr double kMostBias = 0.35;     // rad
-constexpr double kMostResidual = 0.7;  // rad; more is another turn, not the rest of one
-constexpr double kSecondsAMinute = 60.0;
-
-}  // namespace
 
 bool Memory::keeps(double speed, double time) {
+  constexpr double kUsualSpeed = 0.8;  // of the stick
   const double free = std::clamp((time - told_) / config_.kSpan, 0.0, 1.0);
   const double quick = speed / kUsualSpeed;
   const bool lost = random_.chance(config_.lost * (1.0 - free) * quick * quick);
@@ -23,6 +16,7 @@ bool Memory::keeps(double speed, double time) {
 }
 
 void Attention::update(bool moves, double time, double dt) {
+  constexpr double kSecondsAMinute = 60.0;
   const bool wanders = random_.chance(config_.distractions * dt / kSecondsAMinute);
   if (!config_.faults) return;
   if (wanders) elsewhere_until_ = time + config_.distracted;
@@ -42,6 +36,8 @@ double Learning::factor() const {
 }
 
 void Learning::turned(double angle, double rest) {
+  constexpr double kMostBias = 0.35;     // rad
+  constexpr double kMostResidual = 0.7;  // rad; more is another turn, not the rest of one
   if (!config_.on || std::abs(rest) > kMostResidual) return;
   bias_ =
       std::clamp(bias_ + config_.kBiasRate * (angle > 0.0 ? rest : -rest), -kMostBias, kMostBias);

@@ -6,11 +6,6 @@
 #include "navvi_people/people/simulated_operator.hpp"
 
 namespace navvi_people::people {
-namespace {
-
-constexpr double kStartled = 0.4;  // s, from a word to the hand
-
-}  // namespace
 
 void SimulatedOperator::hear_words(const Speech& speech, double time) {
   if (!config_.hearing.words) return;
@@ -37,8 +32,8 @@ void SimulatedOperator::understood(std::uint32_t id, double time) {
     now_.news = time;
 }
 
-/// Some first words are enough.
 void SimulatedOperator::be_startled(double time) {
+  constexpr double kStartled = 0.4;  // s, from a word to the hand
   for (const auto& [id, sentence] : ears_.begun()) {
     const double heard = (time - sentence.begun - kStartled) * kLettersPerSecond;
     const Listener::FirstWord word = ears_.listener().first_word(sentence.text, heard);

@@ -8,7 +8,6 @@
 #include <navvi_config/reader.hpp>
 #include <sstream>
 #include <unordered_set>
-#include <utility>
 
 namespace navvi_perception::map {
 namespace {

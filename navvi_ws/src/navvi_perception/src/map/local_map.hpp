@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <navvi_config/field.hpp>
 #include <navvi_types/headroom.hpp>

@@ -98,8 +98,6 @@ class PerceptionNode {
   }
 
   ~PerceptionNode() { moved_.disconnect(); }
-  PerceptionNode(const PerceptionNode&) = delete;
-  PerceptionNode& operator=(const PerceptionNode&) = delete;
 
  private:
   struct Sensor {

@@ -5,15 +5,9 @@
 #include <utility>
 
 namespace navvi_perception::node {
-namespace {
-
-constexpr double kAhead = 0.2;     // s, that a stamp may lie in the future
-constexpr double kPatience = 0.2;  // s, that a scan waits for the place of its last ray
-constexpr double kRounding = 1e-3;  // s, of the stamps of transforms
-
-}  // namespace
 
 std::string SensorQueue::push(Waiting one) {
+  constexpr double kAhead = 0.2;  // s, that a stamp may lie in the future
   const double age = (one.came - one.header.stamp).toSec();
   if (age < -kAhead)
     return "its stamp is " + std::to_string(-age) +
@@ -32,6 +26,8 @@ std::string SensorQueue::push(Waiting one) {
 }
 
 std::optional<SensorQueue::Next> SensorQueue::next(const ros::Time& now) {
+  constexpr double kPatience = 0.2;   // s, that a scan waits for the place of its last ray
+  constexpr double kRounding = 1e-3;  // s, of the stamps of transforms
   if (waiting_.empty()) return std::nullopt;
   const Waiting& first = waiting_.front();
   const double waited = std::abs((now - first.came).toSec());

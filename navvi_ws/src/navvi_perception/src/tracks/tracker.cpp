@@ -5,12 +5,6 @@
 #include <tuple>
 
 namespace navvi_perception::tracks {
-namespace {
-
-constexpr double kAnySpeed = 1.5;  // m/s, standard deviation, of what is seen for the first time
-constexpr double kWidens = 0.3;    // of the difference, in which a radius follows a sighting
-
-}  // namespace
 
 void TrackConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -26,6 +20,7 @@ void Tracker::predict(Track& track, double dt) const {
 }
 
 void Tracker::correct(Track& track, const clusters::Cluster& cluster, double time) const {
+  constexpr double kWidens = 0.3;  // of the difference, in which a radius follows a sighting
   const double total = track.spread + config_.noise * config_.noise;
   const double place_gain = track.spread / total;
   const double speed_gain = track.both / total;
@@ -56,6 +51,7 @@ void Tracker::judge(Track& track, double time) const {
 std::vector<std::size_t> Tracker::update(const std::vector<clusters::Cluster>& clusters,
                                          const std::vector<Eigen::Vector3d>& points, double time,
                                          std::uint32_t& next) {
+  constexpr double kAnySpeed = 1.5;  // m/s, standard deviation, of what is seen for the first time
   for (Track& track : tracks_) predict(track, std::max(0.0, time - time_));
   time_ = time;
   tracks_.erase(

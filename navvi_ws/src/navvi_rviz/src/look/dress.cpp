@@ -269,7 +269,6 @@ class Dresser {
     return list;
   }
 
-  /// A flat arrow.
   [[nodiscard]] Marker arrow(const Marker& marker) const {
     Marker list = triangles(marker);
     if (marker.points.size() != 2) return list;

@@ -23,7 +23,6 @@
 #include <navvi_types/subscribe.hpp>
 #include <navvi_types/transform_listener.hpp>
 
-#include "look/skyline.hpp"
 #include "plugin/chosen.hpp"
 #include "plugin/markers_display.hpp"
 #include "plugin/paint.hpp"
@@ -190,9 +189,9 @@ Plate& CaptionsDisplay::words(const std::string& name, const std::string& text, 
 void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
   const Ogre::Viewport* port = context_->getViewManager()->getCurrent()->getCamera()->getViewport();
   if (!port) return;
-  const Eigen::Vector2d picture(port->getActualWidth(), port->getActualHeight());
+  picture_ = Eigen::Vector2d(port->getActualWidth(), port->getActualHeight());
   height_ = static_cast<int>(std::max(
-      kLeastText, Chosen::shared().vision().text_height * std::max(1.0, picture.y() / 1080.0)));
+      kLeastText, Chosen::shared().vision().text_height * std::max(1.0, picture_.y() / 1080.0)));
   if (std::exchange(first_, false))
     choose_view(*context_,
                 QString::fromStdString(ros::param::param<std::string>("~view", "chase")));
@@ -200,15 +199,15 @@ void CaptionsDisplay::update(float wall_dt, float /*ros_dt*/) {
   const auto pose = robot();
   const status::Shown shown = reader_->shown();
   const Mover* const threat = pose ? this->threat(shown, *pose) : nullptr;
-  if (pose) show_from_behind(*pose, threat, picture, static_cast<double>(wall_dt));
-  screen::Taken taken = things(pose, kHurry, picture);
-  if (pose) show_from_above(*pose, picture, taken);
-  show_banner(shown, picture, taken);
-  if (threat != nullptr) show_threat(*threat, picture, taken);
-  const screen::Taken others = things(pose, std::numeric_limits<double>::infinity(), picture);
-  taken.always.insert(taken.always.end(), others.always.begin(), others.always.end());
-  if (pose) show_way(*pose, picture, taken);
-  show_labels(picture, taken);
+  if (pose) show_from_behind(*pose, threat, static_cast<double>(wall_dt));
+  taken_ = things(pose, kHurry);
+  if (pose) show_from_above(*pose);
+  show_banner(shown);
+  if (threat != nullptr) show_threat(*threat);
+  const screen::Taken others = things(pose, std::numeric_limits<double>::infinity());
+  taken_.always.insert(taken_.always.end(), others.always.begin(), others.always.end());
+  if (pose) show_way(*pose);
+  show_labels();
   draw_if_changed(*context_->getViewManager()->getCurrent()->getCamera());
   tell_rate();
 }
@@ -275,63 +274,57 @@ const CaptionsDisplay::Mover* CaptionsDisplay::threat(const status::Shown& shown
   return nearest;
 }
 
-void CaptionsDisplay::show_threat(const Mover& threat, const Eigen::Vector2d& picture,
-                                  screen::Taken& taken) {
+void CaptionsDisplay::show_threat(const Mover& threat) {
   const Seen middle = see(threat.place.center());
-  const auto edge = screen::edge_arrow(middle.in_camera, middle.pixel, picture, 2.0 * height_);
-  if (edge) show_edge_arrow("threat", *edge, Chosen::shared().vision().text, picture, taken);
+  const auto edge = screen::edge_arrow(middle.in_camera, middle.pixel, picture_, 2.0 * height_);
+  if (edge) show_edge_arrow("threat", *edge, Chosen::shared().vision().text);
   const std::string name =
       reader_->status().words().of(std::string("words/") + to_string(threat.thing_class));
   words("who", name, height_, true);
   const screen::Rect place = seen(threat.place);
-  show_beside("who",
-              edge ? edge->at
-                   : Eigen::Vector2d(place.center().x(), std::max(0.0, place.min().y())),
-              picture, taken);
+  show_beside("who", edge ? edge->at
+                          : Eigen::Vector2d(place.center().x(), std::max(0.0, place.min().y())));
 }
 
-void CaptionsDisplay::show_beside(const std::string& name, const Eigen::Vector2d& place,
-                                  const Eigen::Vector2d& picture, screen::Taken& taken) {
+void CaptionsDisplay::show_beside(const std::string& name, const Eigen::Vector2d& place) {
   Painted& entry = plates_.at(name);
   const Eigen::Vector2d size = size_of(*entry.plate);
-  const auto corner = screen::place({place, size, entry.place}, picture, taken);
+  const auto corner = screen::place({place, size, entry.place}, picture_, taken_);
   if (!corner) return;
   entry.place = *corner - place;
   entry.plate->show(corner->x(), corner->y());
-  taken.always.emplace_back(*corner, *corner + size);
+  taken_.always.emplace_back(*corner, *corner + size);
 }
 
-void CaptionsDisplay::show_banner(const status::Shown& shown, const Eigen::Vector2d& picture,
-                                  screen::Taken& taken) {
+void CaptionsDisplay::show_banner(const status::Shown& shown) {
   if (shown.banner.empty()) return;
   const bool inverted = shown.tone == status::Shown::Tone::alarm;
   if (banner_.text != shown.banner) banner_ = {shown.banner, 1.0};
   int large = static_cast<int>(
       banner_.share *
-      std::min(2.0 * height_, std::max(kBanner * picture.y(), static_cast<double>(kLeastText))));
+      std::min(2.0 * height_, std::max(kBanner * picture_.y(), static_cast<double>(kLeastText))));
   Plate* plate = &words("banner", shown.banner, large, inverted);
   const double width = size_of(*plate).x();
-  if (width > picture.x()) {
-    large = static_cast<int>(0.95 * large * picture.x() / width);
+  if (width > picture_.x()) {
+    large = static_cast<int>(0.95 * large * picture_.x() / width);
     plate = &words("banner", shown.banner, large, inverted);
   }
   const Eigen::Vector2d size = size_of(*plate);
-  const Eigen::Vector2d usual(0.5 * picture.x(), size.y() + 20.0);
+  const Eigen::Vector2d usual(0.5 * picture_.x(), size.y() + 20.0);
   std::optional<Eigen::Vector2d>& before = plates_.at("banner").place;
-  const auto room = screen::place({usual, size, before}, picture, {taken.always, {}});
+  const auto room = screen::place({usual, size, before}, picture_, {taken_.always, {}});
   // For whom letters cannot be too large they stay.
   if (!room && Chosen::shared().vision().text_height <= kLeastText)
     banner_.share = std::max(kLeastShare, 0.85 * banner_.share);
   // What must not be missed is shown, whatever it covers.
   const Eigen::Vector2d corner =
-      room.value_or(Eigen::Vector2d(0.5 * (picture.x() - size.x()), 10.0));
+      room.value_or(Eigen::Vector2d(0.5 * (picture_.x() - size.x()), 10.0));
   before = corner - usual;
   plate->show(corner.x(), corner.y());
-  taken.always.emplace_back(corner, corner + size);
+  taken_.always.emplace_back(corner, corner + size);
 }
 
-void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
-                               screen::Taken& taken) {
+void CaptionsDisplay::show_way(const navvi_types::Pose2& robot) {
   std::optional<screen::EdgeArrow> arrow;
   for (const double ahead : kAhead) {
     const auto way = screen::way_ahead(path_, robot.position, ahead);
@@ -339,26 +332,22 @@ void CaptionsDisplay::show_way(const navvi_types::Pose2& robot, const Eigen::Vec
     Seen seen = see(*way);
     // What is ahead, but below the picture, is just before the robot.
     if (seen.pixel && robot.to_local(way->head<2>()).x() > 0.0)
-      seen.pixel->y() = std::min(seen.pixel->y(), picture.y() - 1.0);
-    arrow = screen::edge_arrow(seen.in_camera, seen.pixel, picture, 0.5 * edge_size(picture));
+      seen.pixel->y() = std::min(seen.pixel->y(), picture_.y() - 1.0);
+    arrow = screen::edge_arrow(seen.in_camera, seen.pixel, picture_, 0.5 * edge_size());
   }
-  if (arrow)
-    show_edge_arrow("edge", *arrow, Chosen::shared().vision().fill.at("path"), picture, taken);
+  if (arrow) show_edge_arrow("edge", *arrow, Chosen::shared().vision().fill.at("path"));
 }
 
 void CaptionsDisplay::show_edge_arrow(const std::string& name, const screen::EdgeArrow& arrow,
-                                      const look::Color& fill, const Eigen::Vector2d& picture,
-                                      screen::Taken& taken) {
-  const Plate& plate =
-      pointer(name, arrow.angle, edge_size(picture), [&](double angle, int size) {
-        return paint_arrow(angle, size, fill, Chosen::shared().vision());
-      });
-  const Eigen::Vector2d low(0.0, 0.5 * size_of(plate).y());
-  show_beside(name, arrow.at + low, picture, taken);
+                                      const look::Color& fill) {
+  const Plate& plate = pointer(name, arrow.angle, edge_size(), [&](double angle, int size) {
+    return paint_arrow(angle, size, fill, Chosen::shared().vision());
+  });
+  show_beside(name, arrow.at + Eigen::Vector2d(0.0, 0.5 * size_of(plate).y()));
 }
 
-void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture, screen::Taken& taken) {
-  const screen::Rect all(Eigen::Vector2d::Zero(), picture);
+void CaptionsDisplay::show_labels() {
+  const screen::Rect all(Eigen::Vector2d::Zero(), picture_);
   for (const auto& [id, label] : labels_) {
     Seen seen = see(label.second);
     if (!seen.pixel) continue;
@@ -367,10 +356,10 @@ void CaptionsDisplay::show_labels(const Eigen::Vector2d& picture, screen::Taken&
     if (!all.contains(*seen.pixel)) continue;
     const std::string name = "label" + std::to_string(id);
     Plate& plate = words(name, label.first, height_, false);
-    show_beside(name, *seen.pixel, picture, taken);
+    show_beside(name, *seen.pixel);
     const std::optional<Eigen::Vector2d>& corner = plates_.at(name).place;
     // Far from its place, it would seem to name another.
-    if (corner && (*corner + 0.5 * size_of(plate)).norm() > kFar * picture.y()) plate.hide();
+    if (corner && (*corner + 0.5 * size_of(plate)).norm() > kFar * picture_.y()) plate.hide();
   }
 }
 
@@ -389,12 +378,12 @@ screen::Rect CaptionsDisplay::seen(const Eigen::AlignedBox3d& thing) const {
   return place;
 }
 
-screen::Taken CaptionsDisplay::things(const std::optional<navvi_types::Pose2>& robot, double reach,
-                                      const Eigen::Vector2d& picture) const {
+screen::Taken CaptionsDisplay::things(const std::optional<navvi_types::Pose2>& robot,
+                                      double reach) const {
   screen::Taken taken;
   const auto add = [&](const Eigen::AlignedBox3d& thing, std::vector<screen::Rect>& to) {
     const screen::Rect place = seen(thing);
-    if (!place.isEmpty() && place.intersects(screen::Rect(Eigen::Vector2d::Zero(), picture)))
+    if (!place.isEmpty() && place.intersects(screen::Rect(Eigen::Vector2d::Zero(), picture_)))
       to.push_back(place);
   };
   const auto away = [&](const Eigen::Vector3d& place) {
@@ -423,8 +412,7 @@ bool CaptionsDisplay::from_above() const {
   return context_->getViewManager()->getCurrent()->getClassId() == "rviz/TopDownOrtho";
 }
 
-void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
-                                      const Eigen::Vector2d& picture, screen::Taken& taken) {
+void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot) {
   const auto& guidance = reader_->status().guidance();
   if (guidance && guidance->leads() && goal_ != guidance->goal) {
     goal_ = guidance->goal;
@@ -435,9 +423,9 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
   if (goal_) all.extend(*goal_).extend(*start_);
   for (const Eigen::Vector3d& place : path_) all.extend(place.head<2>());
   const Eigen::Vector2d room = all.sizes() + Eigen::Vector2d::Constant(2.0 * kMargin);
-  const double banner = std::min(5.0 * height_, 0.3 * picture.y());  // px, above all that
+  const double banner = std::min(5.0 * height_, 0.3 * picture_.y());  // px, above all that
   const double symbol = 3.0 * height_;  // px, of the robot's
-  const Eigen::Array2d free(picture.x() - symbol, picture.y() - banner - symbol);
+  const Eigen::Array2d free(picture_.x() - symbol, picture_.y() - banner - symbol);
   const double scale = std::min(kLargest, (free / room.array()).minCoeff());
   rviz::ViewController* view = context_->getViewManager()->getCurrent();
   view->subProp("X")->setValue(all.center().x());
@@ -450,7 +438,7 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
     const Eigen::Vector2d half = Eigen::Vector2d::Constant(0.5 * size), corner = *pixel - half;
     const screen::Rect place(corner, corner + 2.0 * half);
     pointer(name, angle, size, paint).show(corner.x(), corner.y());
-    taken.always.push_back(place);
+    taken_.always.push_back(place);
   };
   const look::Vision& vision = Chosen::shared().vision();
   show("robot", robot.position, robot.yaw, 3 * height_,
@@ -461,14 +449,14 @@ void CaptionsDisplay::show_from_above(const navvi_types::Pose2& robot,
 }
 
 void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, const Mover* threat,
-                                       const Eigen::Vector2d& picture, double time) {
+                                       double time) {
   rviz::ViewController* view = context_->getViewManager()->getCurrent();
   if (view->getName() != "Chase") return;
   rviz::Property* away = view->subProp("Distance");
   double distance = away->getValue().toDouble();
   const bool sought =
       threat != nullptr &&
-      !screen::Rect(Eigen::Vector2d::Zero(), picture).contains(seen(threat->place));
+      !screen::Rect(Eigen::Vector2d::Zero(), picture_).contains(seen(threat->place));
   if (sought || threat == nullptr) {
     distance += std::clamp((sought ? kFarthest : kUsual) - distance, -kIn * time, kOut * time);
     away->setValue(distance);
@@ -493,8 +481,8 @@ void CaptionsDisplay::show_from_behind(const navvi_types::Pose2& robot, const Mo
   pitch->setValue(now + std::clamp(wanted - now, -kDown * time, kUp * time));
 }
 
-int CaptionsDisplay::edge_size(const Eigen::Vector2d& picture) const {
-  return std::min(4 * height_, static_cast<int>(kArrow * picture.y()));
+int CaptionsDisplay::edge_size() const {
+  return std::min(4 * height_, static_cast<int>(kArrow * picture_.y()));
 }
 
 Plate& CaptionsDisplay::pointer(const std::string& name, double angle, int size,

@@ -41,7 +41,6 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   void onDisable() override;
 
  private:
-  /// A plate, and what is painted on it.
   struct Painted {
     std::unique_ptr<Plate> plate;
     std::string key;
@@ -60,7 +59,6 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   [[nodiscard]] Eigen::Vector2d pixel(const Eigen::Vector3d& in_camera) const;
   /// base_link in the fixed frame.
   [[nodiscard]] std::optional<navvi_types::Pose2> robot() const;
-  /// The plate of that name with these words on it.
   Plate& words(const std::string& name, const std::string& text, int height, bool inverted);
   Plate& painted(const std::string& name, const std::string& key,
                  const std::function<QImage()>& paint);
@@ -74,14 +72,12 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   /// A plate that points. \param angle  rad, counter-clockwise from right
   Plate& pointer(const std::string& name, double angle, int size, const Paint& paint);
   /// px, of the arrows at the picture's edge
-  [[nodiscard]] int edge_size(const Eigen::Vector2d& picture) const;
+  [[nodiscard]] int edge_size() const;
   /// The plate of that name beside a place of the picture, px, if there is room.
-  void show_beside(const std::string& name, const Eigen::Vector2d& place,
-                   const Eigen::Vector2d& picture, screen::Taken& taken);
+  void show_beside(const std::string& name, const Eigen::Vector2d& place);
   /// An arrow at the picture's edge to a place beyond it.
   void show_edge_arrow(const std::string& name, const screen::EdgeArrow& arrow,
-                       const look::Color& fill, const Eigen::Vector2d& picture,
-                       screen::Taken& taken);
+                       const look::Color& fill);
   /// Who the banner warns of: of their kind, the nearest to where they close the path, or to the
   /// robot.
   [[nodiscard]] const Mover* threat(const status::Shown& shown,
@@ -92,22 +88,18 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   [[nodiscard]] screen::Rect seen(const Eigen::AlignedBox3d& thing) const;
   /// What plates leave free: of what moves and of the path what is within `reach` of the robot.
   /// \param reach  m
-  [[nodiscard]] screen::Taken things(const std::optional<navvi_types::Pose2>& robot, double reach,
-                                     const Eigen::Vector2d& picture) const;
-  void show_banner(const status::Shown& shown, const Eigen::Vector2d& picture,
-                   screen::Taken& taken);
-  void show_threat(const Mover& threat, const Eigen::Vector2d& picture, screen::Taken& taken);
-  void show_way(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
-                screen::Taken& taken);
-  void show_labels(const Eigen::Vector2d& picture, screen::Taken& taken);
+  [[nodiscard]] screen::Taken things(const std::optional<navvi_types::Pose2>& robot,
+                                     double reach) const;
+  void show_banner(const status::Shown& shown);
+  void show_threat(const Mover& threat);
+  void show_way(const navvi_types::Pose2& robot);
+  void show_labels();
   /// The view from above holds the robot, the start, the goal and the path, and shows where they
   /// are.
-  void show_from_above(const navvi_types::Pose2& robot, const Eigen::Vector2d& picture,
-                       screen::Taken& taken);
+  void show_from_above(const navvi_types::Pose2& robot);
   /// The view from behind looks over what stands between it and the robot, from farther away as
   /// long as a threat is not in it. \param time  s, since it last did so
-  void show_from_behind(const navvi_types::Pose2& robot, const Mover* threat,
-                        const Eigen::Vector2d& picture, double time);
+  void show_from_behind(const navvi_types::Pose2& robot, const Mover* threat, double time);
 
   bool frameStarted(const Ogre::FrameEvent& event) override;
   bool frameEnded(const Ogre::FrameEvent& event) override;
@@ -140,6 +132,8 @@ class CaptionsDisplay : public rviz::Display, private Ogre::FrameListener {
   ros::SteadyTime drawn_at_;
   bool first_ = true;  ///< nothing was drawn yet
   int height_ = 26;    ///< px, of capital letters
+  Eigen::Vector2d picture_ = Eigen::Vector2d::Zero();  ///< px, its size
+  screen::Taken taken_;                                ///< by what is shown in it so far
   std::optional<Eigen::Vector2d> start_,
       goal_;  ///< m, in map: where the robot was when it got its goal
   ros::Subscriber markers_, scene_, obstacles_;

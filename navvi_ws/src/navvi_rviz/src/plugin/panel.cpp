@@ -9,10 +9,7 @@
 
 #include <QAccessible>
 #include <QApplication>
-#include <QComboBox>
 #include <QDockWidget>
-#include <QHBoxLayout>
-#include <QMainWindow>
 #include <QMenuBar>
 #include <QScreen>
 #include <QShortcut>
@@ -23,7 +20,6 @@
 
 #include "plugin/chosen.hpp"
 #include "plugin/paint.hpp"
-#include "plugin/flow_layout.hpp"
 
 namespace navvi_rviz::plugin {
 namespace {

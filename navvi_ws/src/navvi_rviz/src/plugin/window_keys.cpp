@@ -85,7 +85,6 @@ class WindowKeys::Reader {
       ignored_[code] = (static_cast<unsigned char>(map[code / 8]) >> (code % 8) & 1) != 0;
   }
 
-  /// Takes the next event.
   void take() {
     XEvent event;
     XNextEvent(display_, &event);

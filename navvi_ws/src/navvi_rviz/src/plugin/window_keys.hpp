@@ -23,8 +23,6 @@ class WindowKeys {
   /// focus, or its keys are somebody else's
   explicit WindowKeys(std::function<void(const Typed*)> tell);
   ~WindowKeys();
-  WindowKeys(const WindowKeys&) = delete;
-  WindowKeys& operator=(const WindowKeys&) = delete;
 
   /// \param window  X's number of it; 0: none yet \param ours  false while something in it, such as
   /// a list, has keys of its own

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <navvi_config/reader.hpp>
 #include <navvi_types/spoken.hpp>
+#include <set>
 #include <utility>
 
 namespace navvi_rviz::status {
@@ -24,19 +25,11 @@ bool closes(CueKind kind) {
 }
 
 Shown::Tone tone_of(CueKind kind) {
-  switch (kind) {
-    case CueKind::arrived:
-      return Shown::Tone::good;
-    case CueKind::blocked:
-    case CueKind::make_room:
-    case CueKind::which_side:
-    case CueKind::press:
-    case CueKind::choose_goal:
-    case CueKind::lesson:
-      return Shown::Tone::wait;
-    default:
-      return Shown::Tone::alarm;
-  }
+  static const std::set<CueKind> waits = {CueKind::blocked,    CueKind::make_room,
+                                          CueKind::which_side, CueKind::press,
+                                          CueKind::choose_goal, CueKind::lesson};
+  if (kind == CueKind::arrived) return Shown::Tone::good;
+  return waits.count(kind) > 0 ? Shown::Tone::wait : Shown::Tone::alarm;
 }
 
 }  // namespace

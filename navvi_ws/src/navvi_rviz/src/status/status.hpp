@@ -27,7 +27,6 @@ class Words {
   /// \param keyboard  the hands are on the arrow keys
   [[nodiscard]] std::string said(navvi_types::CueKind kind, bool keyboard) const;
 
-  /// Which kind of mover a sentence names.
   [[nodiscard]] std::optional<navvi_types::ThingClass> mover_in(const std::string& text) const;
 
   /// What is left to the goal, rounded as the voice does.
@@ -58,7 +57,6 @@ struct Shown {
 /// that does not run backwards.
 class Status {
  public:
-  /// From now on.
   void use(const Words& words) { words_ = words; }
   [[nodiscard]] const Words& words() const { return words_; }
   void take(const navvi_types::CueEvent& cue, double time);
@@ -73,7 +71,6 @@ class Status {
   }
   /// What the person is to do from now on.
   void take_order(const navvi_types::CueEvent& order);
-  /// For the person to begin it.
   [[nodiscard]] bool trial_waits() const { return trial_ == navvi_types::TrialState::State::ready; }
   /// \param ros_time  s, of the event
   void take_event(const std::string& type, double ros_time);

@@ -47,7 +47,7 @@ def check(args):
     print("\n".join(overview.schedule(planned)))
     if args.no_worlds:
         return 0
-    worlds.require_things(planned, TOOLS["tool"]("navvi_sim", "world_tool"))
+    worlds.require_files(planned, TOOLS["tool"])
     lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
     print("\n".join(["", *lines]))
     for picture in worlds.pictures(planned, TOOLS["draw"]) if args.pictures else []:
@@ -68,8 +68,7 @@ def freeze(args):
     """
     from . import overview, preregistration, worlds
     study = opened(args)
-    if any(map(study.plan.world_file, study.plan.worlds)):
-        worlds.require_things(study.plan, TOOLS["tool"]("navvi_sim", "world_tool"))
+    worlds.require_files(study.plan, TOOLS.get("tool"))
     changes = study.freeze(TOOLS["version"](), args.reason)
     print(f"navvi: the plan is frozen: {study.plan.hash()}")
     for change in changes or []:

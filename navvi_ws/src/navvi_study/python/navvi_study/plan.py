@@ -181,13 +181,17 @@ class Plan:
         one = next((one for one in self.worlds if (one.world, one.seed) == (world.world, world.seed)), None)
         return {key: str(Path(self.file).absolute().parent / name) for key in ("zones", "jobs") if one and (name := getattr(one, key))}
 
+    def zones(self, world):
+        """The word by which a session has them; none without zones."""
+        return [f"nav/mesh/zones:={file}" for key, file in self.beside(world).items() if key == "zones"]
+
     def places(self, world):
         """Those of its job, in their order; none without a job."""
         return [place for key, file in self.beside(world).items() if key == "jobs" for place in places_in(file)]
 
     def legs(self, world):
         """The words of trials_bench for each leg of a trial, that is one without a job; each begins where the one before ends."""
-        words = [f"nav/mesh/zones:={file}" for key, file in self.beside(world).items() if key == "zones"]
+        words = self.zones(world)
         places = [f"{x:g},{y:g}" for x, y, _, _ in self.places(world)]
         starts = [[]] + [[f"sim/start:={place},0"] for place in places]
         return [[*words, *start, f"sim/goal:={place}"] for start, place in zip(starts, places)] or [words]

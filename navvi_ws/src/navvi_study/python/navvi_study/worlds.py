@@ -32,13 +32,18 @@ def drive(plan, trials_bench, jobs=2):
         return dict(zip(worlds, pool.map(one, worlds)))
 
 
-def require_things(plan, world_tool):
-    """Raises StudyError for a world's file in which nothing stands; worlds with a name are drawn full."""
-    for file in sorted({plan.world_file(world) for world in plan.worlds} - {None}):
-        result = subprocess.run([str(world_tool), "check", str(file)], capture_output=True, text=True, errors="replace", check=False)
+def require_files(plan, tool):
+    """Raises StudyError for zones that a session refuses, and for a world's file in which nothing stands; worlds with a name are drawn full."""
+    def answer(*command):
+        result = subprocess.run([*map(str, command)], capture_output=True, text=True, errors="replace", check=False)
         if result.returncode != 0:
-            raise StudyError(f"{plan.file}: no trial can be driven in {file}: {result.stderr.strip()}")
-        if not json.loads(result.stdout)["standing"]:
+            raise StudyError(f"{plan.file}: no trial can be driven in {command[-1]}: {result.stderr.strip().removeprefix('navvi: ')}")
+        return result.stdout
+
+    for zones in sorted({word for world in plan.worlds for word in plan.zones(world)}):
+        answer(tool("navvi_study", "trials_bench"), "--check", zones)
+    for file in sorted({plan.world_file(world) for world in plan.worlds} - {None}):
+        if not json.loads(answer(tool("navvi_sim", "world_tool"), "check", file))["standing"]:
             raise StudyError(f"{plan.file}: nothing stands in {file}, and a trial there measures nothing; allowed are worlds with things on their floor.")
 
 
@@ -67,7 +72,7 @@ def picture_for(plan, draw):
 
 
 def _words(plan, world):
-    return [f"seed:={world.seed}", *(f"nav/mesh/zones:={file}" for key, file in plan.beside(world).items() if key == "zones")]
+    return [f"seed:={world.seed}", *plan.zones(world)]
 
 
 def _together(rows):

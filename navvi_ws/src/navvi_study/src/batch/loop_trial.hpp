@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <memory>
 #include <navvi_people/loop/closed_loop.hpp>
-#include <string>
 #include <vector>
 
 #include "record/figures.hpp"
@@ -26,8 +25,6 @@ class LoopTrial {
   /// \param phrases  as the loop's
   LoopTrial(trial::TrialNodeConfig config, const ClosedLoop& loop, std::filesystem::path phrases);
   ~LoopTrial();
-  LoopTrial(const LoopTrial&) = delete;
-  LoopTrial& operator=(const LoopTrial&) = delete;
 
   /// Before the first step: the record will be that of a live trial, with its bag, in a folder.
   /// \param folder  is made, and bears the trial's name \param utc_ns  of the calendar, now

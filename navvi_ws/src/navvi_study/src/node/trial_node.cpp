@@ -150,7 +150,11 @@ class TrialNode {
                       node_.resolveName("octomap_binary"),
                       node_.resolveName("map"),
                       ros::param::param<std::string>("nav_node/map_frame", "map"),
-                      ros::param::param<std::string>("nav_node/base_frame", "base_link")};
+                      ros::param::param<std::string>("nav_node/base_frame", "base_link"),
+                      ""};
+    // Where the robot's clock is on another machine, person.launch has one here.
+    if (node_.resolveName("/clock") != "/clock")
+      config.sources.link = node_.resolveName("navvi/link");
     return config;
   }
   [[nodiscard]] trial::TrialKeeper::Outlets outlets() {

@@ -7,7 +7,6 @@
 #include <map>
 #include <navvi_types/angles.hpp>
 
-#include "record/row.hpp"
 #include "record/driven.hpp"
 #include "record/told.hpp"
 
@@ -37,7 +36,6 @@ double number_of(const Row* row, const std::string& field) {
 
 const Row* start_of(const Trial& trial) { return trial.first("TRIAL_START"); }
 
-/// The first row between these that passes the test.
 template <typename Iterator, typename Test>
 const Row* found(Iterator begin, Iterator end, const Test& test) {
   const auto row = std::find_if(begin, end, test);
@@ -74,7 +72,6 @@ double duration(const Trial& trial) { return std::max(1.0, trial.end() - trial.b
 
 // Makers of figures.
 
-/// A field of the first row of a type.
 Of first(const char* type, const std::string& field) {
   return [=](const Trial& trial) { return text_of(trial.first(type), field); };
 }
@@ -92,7 +89,6 @@ Of as_summed(const std::string& field) {
 Of counts(const char* type) {
   return [=](const Trial& trial) { return count_of(trial, type, ""); };
 }
-/// Of rows that pass the test.
 Of counts(bool (*test)(const Row&)) {
   return [=](const Trial& trial) {
     return std::to_string(std::count_if(trial.rows.begin(), trial.rows.end(), test));
@@ -484,9 +480,8 @@ std::optional<Summary> parse_summary(const std::string& text) {
   // No column holds a line end: the fields that could are free text of the launch, and a cell with
   // one would be quoted, which the count of lines below refuses.
   const auto first = text.find('\n');
-  if (first == std::string::npos || text.find('\n', first + 1) != text.size() - 1) {
+  if (first == std::string::npos || text.find('\n', first + 1) != text.size() - 1)
     return std::nullopt;
-  }
   const auto names = cells_of(std::string_view(text).substr(0, first));
   const auto cells = cells_of(std::string_view(text).substr(first + 1, text.size() - first - 2));
   if (!names || !cells || names->size() != cells->size()) return std::nullopt;

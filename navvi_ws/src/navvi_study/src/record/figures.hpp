@@ -50,7 +50,6 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 
 [[nodiscard]] std::vector<std::string> reported_columns();
 
-/// A header and one row.
 [[nodiscard]] std::string summary_csv(const Summary& summary);
 /// nullopt for a text that summary_csv() does not write.
 [[nodiscard]] std::optional<Summary> parse_summary(const std::string& text);

@@ -72,10 +72,9 @@ Journal::Journal(const fs::path& folder, const std::string& trial, std::uint64_t
   std::error_code error;
   const auto space = fs::space(folder, error);
   if (error) throw std::runtime_error("no trial: the folder " + folder.string() + " is not there");
-  if (space.available < min_free) {
+  if (space.available < min_free)
     throw std::runtime_error("no trial: less than " + std::to_string(min_free >> 20) +
                              " MB are free in " + folder.string());
-  }
   file_ = ::open(journal_in(folder).c_str(),
                  O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644);
   if (file_ < 0)
@@ -124,9 +123,8 @@ std::optional<Row> Journal::append(const std::string& type, const Fields& fields
   const off_t before = ::lseek(file_, 0, SEEK_END);
   int error = write(format_row(row));
   // A failed sync may have thrown the bytes away: asking again would say yes to nothing.
-  if (error == 0 && durability == Durability::essential && calls_.fdatasync(file_) != 0) {
+  if (error == 0 && durability == Durability::essential && calls_.fdatasync(file_) != 0)
     error = errno;
-  }
   if (error != 0) {
     problem_ = navvi_files::failure("write the journal", error);
     // A row that may not last is not to be read as one that does.
@@ -176,9 +174,8 @@ navvi_files::Problem mend(const fs::path& folder, int file, const std::string& b
     const std::string tail = bytes.substr(contents.good_bytes);
     const fs::path aside = place_for(folder, tail);
     if (const auto problem = navvi_files::write_atomically(aside, tail, calls)) return problem;
-    if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || calls.fsync(file) != 0) {
+    if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || calls.fsync(file) != 0)
       return navvi_files::failure("shorten the journal", errno);
-    }
     recovery.changed = true;
     recovery.report +=
         contents.damage + "; the bytes from there on are in " + aside.filename().string() + ". ";

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <navvi_files/files.hpp>
 #include <string>
 #include <vector>
@@ -30,7 +29,6 @@ class Journal {
   Journal(const std::filesystem::path& folder, const std::string& trial,
           std::uint64_t min_free = kMinFree,
           navvi_files::SystemCalls calls = navvi_files::SystemCalls::real());
-  /// Gives the reserve back.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
@@ -46,7 +44,6 @@ class Journal {
   [[nodiscard]] bool broken() const { return !problem_.empty(); }
   /// The reserve has been given up, or less than `least` bytes are free: end the trial.
   [[nodiscard]] bool full(std::uint64_t least = kPage) const;
-  /// Every row that was written.
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
  private:
@@ -71,7 +68,6 @@ struct JournalContents {
 
 [[nodiscard]] JournalContents read_journal(std::string_view bytes);
 
-/// What recover() found and did.
 struct Recovery {
   bool changed = false;
   bool in_use = false;  ///< a running trial holds it: untouched

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <navvi_files/printable.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,10 +10,9 @@
 
 namespace navvi_study::record {
 
-/// With so many digits after the point.
-[[nodiscard]] std::string fixed(double value, int decimals);
+using navvi_files::fixed;
 
-/// A line with its end.
+
 [[nodiscard]] std::string csv_line(const std::vector<std::string>& cells);
 /// The cells of one line, without its end; nullopt where quotes are not in order.
 [[nodiscard]] std::optional<std::vector<std::string>> cells_of(std::string_view line);

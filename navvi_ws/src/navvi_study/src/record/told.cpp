@@ -31,7 +31,6 @@ std::optional<Content> told_in(const Row& row) {
   return navvi_types::from_word<Content>(row.fields.get("kind"));
 }
 
-/// Takes sentences one after the other.
 class Ear {
  public:
   explicit Ear(const Trial& trial) : trial_(trial) {}

@@ -25,10 +25,9 @@ std::string calendar(std::int64_t utc_ns) {
 fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
   std::error_code error;
   fs::create_directories(out, error);
-  if (error || !fs::is_directory(out)) {
+  if (error || !fs::is_directory(out))
     throw std::runtime_error("no trial: the folder " + out.string() + " cannot be made" +
                              (error ? ": " + error.message() : ""));
-  }
   std::tm calendar{};
   gmtime_r(&utc, &calendar);
   std::array<char, 40> name{};
@@ -36,10 +35,9 @@ fs::path create_trial_folder(const fs::path& out, std::time_t utc) {
   for (int i = 1; i < 1000; ++i) {
     const fs::path folder = out / (name.data() + (i == 1 ? "" : "-" + std::to_string(i)));
     const bool made = fs::create_directory(folder, error);
-    if (error) {
+    if (error)
       throw std::runtime_error("no trial: nothing can be written into " + out.string() + ": " +
                                error.message());
-    }
     if (made) return folder;
   }
   throw std::runtime_error("no trial: 999 trials of this second are in " + out.string());

@@ -3,7 +3,6 @@
 #include <rosbag/message_instance.h>
 
 #include <stdexcept>
-#include <string>
 
 namespace navvi_study::recount {
 

@@ -3,7 +3,6 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
-#include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
 #include <stdexcept>
 
@@ -115,9 +114,8 @@ class Recount {
     while (next_goal_ < goals_.size() && goals_[next_goal_].sim_ns <= stamp) {
       const record::Row& row = goals_[next_goal_++];
       const trial::Event event = {"GOAL_SET", row.fields, row.sim_ns};
-      if (row.sim_ns > start_.sim_ns) {
+      if (row.sim_ns > start_.sim_ns)
         (void)monitor_.change_goal(start_of(row).goal, row.sim_ns);
-      }
       push(event);
     }
   }

@@ -14,8 +14,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "close_trials: one argument is allowed, a folder that holds trials.\n");
     return 2;
   }
-  for (const auto& sentence : navvi_study::record::recover_trials(argv[1])) {
+  for (const auto& sentence : navvi_study::record::recover_trials(argv[1]))
     std::printf("%s\n", sentence.c_str());
-  }
   return 0;
 }

@@ -12,15 +12,6 @@
 
 namespace navvi_study::trial {
 namespace fs = std::filesystem;
-namespace {
-
-constexpr double kStart = 60.0;  // s, for the recorder to listen: it asks the master for each topic in turn, which may be far
-constexpr double kSettle = 0.5;  // s, for links to come up before the first event
-constexpr double kStill = 10.0;  // s, without growth; a compressed bag grows by whole chunks
-constexpr double kHalted = 2.0;  // s, in which a recorder may be stopped by a signal
-constexpr std::uintmax_t kEmptyBag = 4117;  // bytes, a bag's header alone
-
-}  // namespace
 
 BagRecorder::BagRecorder(const fs::path& bag, const std::string& node_name,
                          const std::vector<std::string>& topics,
@@ -57,9 +48,8 @@ BagRecorder::BagRecorder(const fs::path& bag, const std::string& node_name,
 BagRecorder::~BagRecorder() {
   if (!running()) return;
   stop();
-  for (int i = 0; i < 100 && running(); ++i) {
+  for (int i = 0; i < 100 && running(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
   if (!running()) return;
   kill();
   ::waitpid(child_, nullptr, 0);
@@ -100,6 +90,7 @@ void BagRecorder::kill() {
 }
 
 bool BagRecorder::closed_well() {
+  constexpr std::uintmax_t kEmptyBag = 4117;  // bytes, a bag's header alone
   std::error_code error;
   return !running() && asked_ && WIFEXITED(status_) && WEXITSTATUS(status_) == 0 &&
          fs::exists(bag_, error) && fs::file_size(bag_, error) > kEmptyBag;
@@ -111,6 +102,9 @@ void BagWatch::hears(double time) {
 }
 
 bool BagWatch::ready(double time) {
+  // s, for the recorder to listen: it asks the master for each topic in turn, which may be far
+  constexpr double kStart = 60.0;
+  constexpr double kSettle = 0.5;  // s, for links to come up before the first event
   if (recorder_ && !bad_) {
     if (!recorder_->running() || (!listens_ && time - begun_ > kStart)) {
       bad_ = true;
@@ -122,6 +116,8 @@ bool BagWatch::ready(double time) {
 }
 
 bool BagWatch::growing(double time) {
+  constexpr double kStill = 10.0;  // s, without growth; a compressed bag grows by whole chunks
+  constexpr double kHalted = 2.0;  // s, in which a recorder may be stopped by a signal
   if (!recorder_ || bad_) return !bad_;
   const auto size = recorder_->size();
   if (size > size_) {

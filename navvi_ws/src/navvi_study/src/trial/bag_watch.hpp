@@ -25,7 +25,6 @@ class BagRecorder {
   BagRecorder(const BagRecorder&) = delete;
   BagRecorder& operator=(const BagRecorder&) = delete;
 
-  /// Whether the process lives.
   [[nodiscard]] bool running();
   /// Whether it is stopped by a signal: what comes meanwhile is not recorded for sure.
   [[nodiscard]] bool halted() const;

@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace navvi_study::trial {
-namespace {
-
-constexpr std::size_t kMostWaiting = 100;      // reports; then the last correction must do
-constexpr std::size_t kMostCorrections = 200;  // kept
-
-}  // namespace
 
 std::vector<Odometry> OdometryInMap::take(const Odometry& odometry) {
   waiting_.push_back(odometry);
@@ -16,6 +10,7 @@ std::vector<Odometry> OdometryInMap::take(const Odometry& odometry) {
 }
 
 std::vector<Odometry> OdometryInMap::take(const Correction& correction) {
+  constexpr std::size_t kMostCorrections = 200;  // kept
   if (!corrections_.empty() && correction.stamp < corrections_.back().stamp) corrections_.clear();
   corrections_.push_back(correction);
   if (corrections_.size() > kMostCorrections) corrections_.pop_front();
@@ -23,6 +18,7 @@ std::vector<Odometry> OdometryInMap::take(const Correction& correction) {
 }
 
 std::vector<Odometry> OdometryInMap::release() {
+  constexpr std::size_t kMostWaiting = 100;  // reports; then the last correction must do
   std::vector<Odometry> reports;
   while (!waiting_.empty()) {
     Odometry report = waiting_.front();

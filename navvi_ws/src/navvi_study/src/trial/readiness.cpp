@@ -1,11 +1,6 @@
 #include "trial/readiness.hpp"
 
 namespace navvi_study::trial {
-namespace {
-
-constexpr double kFresh = 1.0;  // s, age of a message that still flows
-
-}  // namespace
 
 void Readiness::saw(const Guidance& guidance, double time) {
   guidance_ = time;
@@ -13,6 +8,7 @@ void Readiness::saw(const Guidance& guidance, double time) {
 }
 
 std::vector<std::string> Readiness::missing(double time, bool clock_runs) const {
+  constexpr double kFresh = 1.0;  // s, age of a message that still flows
   std::vector<std::string> words;
   if (!clock_runs) words.push_back("the clock (/clock)");
   if (time - odometry_ > kFresh) words.push_back("odometry (" + names_.odometry + ")");
@@ -23,6 +19,8 @@ std::vector<std::string> Readiness::missing(double time, bool clock_runs) const 
   else if (state_ == Guidance::State::pose_stale)
     words.push_back("a pose (transforms from " + names_.map_frame + " to " + names_.base_frame +
                     ")");
+  if (!names_.link.empty() && !linked_)
+    words.push_back("the state of the connection to the robot (" + names_.link + ")");
   if (feedback_ <= kNever) words.push_back("a report of feedback_node (/diagnostics)");
   for (const auto& modality : modalities_) {
     const std::vector<std::string> needed = modality == "rumble"

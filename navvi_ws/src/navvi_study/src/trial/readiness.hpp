@@ -19,6 +19,7 @@ class Readiness {
 
   void saw_odometry(double time) { odometry_ = time; }
   void saw(const Guidance& guidance, double time);
+  void saw(const LinkState&) { linked_ = true; }
   void saw(const DeviceReport& device, double time) {
     devices_[device.device] = device;
     feedback_ = time;
@@ -50,6 +51,7 @@ class Readiness {
   double odometry_ = kNever;
   double guidance_ = kNever;
   double feedback_ = kNever;
+  bool linked_ = false;
   Guidance::State state_ = Guidance::State::no_map;
   std::map<std::string, DeviceReport> devices_;
 };

@@ -57,6 +57,19 @@ TEST(Readiness, calls_topics_and_frames_as_this_session_does) {
   EXPECT_EQ(ready.missing(0.0, true).at(0), "a pose (transforms from tb3/map to base_link)");
 }
 
+TEST(Readiness, waits_for_the_connection_where_the_robot_is_on_another_machine) {
+  SourceNames names;
+  names.link = "/navvi/link";
+  Readiness ready({}, names);
+  ready.saw_odometry(0.0);
+  ready.saw(guidance(Guidance::State::no_goal), 0.0);
+  ready.saw({0, "audio", DeviceState::works}, 0.0);
+  EXPECT_EQ(ready.missing(0.0, true),
+            Words{"the state of the connection to the robot (/navvi/link)"});
+  ready.saw(LinkState{});
+  EXPECT_EQ(ready.missing(0.0, true), Words{});
+}
+
 TEST(Readiness, says_of_each_device_what_was_last_reported) {
   Readiness ready({});
   EXPECT_EQ(ready.state_of("audio"), "unknown");

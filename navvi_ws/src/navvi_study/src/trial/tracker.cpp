@@ -1,6 +1,5 @@
 #include "trial/tracker.hpp"
 
-#include <limits>
 #include <navvi_types/angles.hpp>
 
 namespace navvi_study::trial {

@@ -96,6 +96,12 @@ void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
   observe(device);
 }
 
+void TrialKeeper::take(const LinkState& link, const Moment& now) {
+  now_ = now;
+  readiness_.saw(link);
+  observe(link);
+}
+
 void TrialKeeper::take(const Scenario& scenario, const Moment& now) {
   now_ = now;
   offered_.scenario = scenario;

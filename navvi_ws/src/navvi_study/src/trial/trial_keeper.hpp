@@ -3,7 +3,6 @@
 #include <ctime>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <navvi_feedback/menu/named_place.hpp>
 #include <navvi_types/stall_guard.hpp>
@@ -74,6 +73,7 @@ class TrialKeeper {
   void take(const Correction& correction, const Moment& now);
   void take(const Guidance& guidance, const Moment& now);
   void take(const DeviceReport& device, const Moment& now);
+  void take(const LinkState& link, const Moment& now);
   void take(const Scenario& scenario, const Moment& now);
   /// Recorded while a trial runs, so that its rows can be found on the other clock.
   void take(const ClockOffset& clock, const Moment& now);

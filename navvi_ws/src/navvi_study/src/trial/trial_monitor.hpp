@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <navvi_people/people/listener.hpp>
@@ -41,9 +40,6 @@ namespace navvi_study::trial {
 
 /// `off`: it is there or not, but nothing is to be heard or felt of it.
 enum class DeviceState : std::uint8_t { missing, works, off };
-[[nodiscard]] constexpr std::array<const char*, 3> names(DeviceState) {
-  return {"missing", "works", "off"};
-}
 
 struct DeviceReport {
   std::int64_t stamp = 0;

@@ -8,9 +8,8 @@ namespace navvi_study::trial {
 namespace {
 
 void refuse_control_characters(const char* name, const std::string& text) {
-  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); })) {
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c); }))
     throw std::runtime_error(std::string(name) + " may hold no control characters");
-  }
 }
 
 /// Letters, digits, - and _, such as sub-01, so that names do not slip into the record.

@@ -16,6 +16,7 @@ struct SourceNames {
   std::string grid = "/map";
   std::string map_frame = "map";
   std::string base_frame = "base_link";
+  std::string link;  ///< empty: person and robot are not on two machines
 };
 
 /// Where a trial stands in a study's plan, as its summary has it.

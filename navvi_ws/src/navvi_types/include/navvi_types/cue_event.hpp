@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,14 +13,8 @@
 namespace navvi_types {
 
 enum class CueStage : std::uint8_t { queued, started, ended, cut, dropped };
-[[nodiscard]] constexpr std::array<const char*, 5> names(CueStage) {
-  return {"queued", "started", "ended", "cut", "dropped"};
-}
 
 enum class Modality : std::uint8_t { speech, rumble, sound };
-[[nodiscard]] constexpr std::array<const char*, 3> names(Modality) {
-  return {"speech", "rumble", "sound"};
-}
 
 /// A sentence.
 struct Spoken : Content {

@@ -14,9 +14,6 @@ namespace navvi_types {
 
 /// The scale of speech-dispatcher, least first.
 enum class Priority : std::uint8_t { progress, notification, text, message, important };
-[[nodiscard]] constexpr std::array<const char*, 5> names(Priority) {
-  return {"progress", "notification", "text", "message", "important"};
-}
 
 // clang-format off
 /// Every kind of sentence that the guide speaks. Each has a row of kRows, and a phrase.
@@ -57,25 +54,8 @@ enum class About : std::uint8_t {
   new_route, way_blocked,
   no_goal, around_nothing, where_place, help_pad, help_keys,
 };
-[[nodiscard]] constexpr std::array<const char*, 74> names(About) {
-  return {"",
-          "shelf", "wall", "obstacle",
-          "pad", "keyboard", "simulator", "odometry", "audio", "connection", "picture",
-          "no_route", "no_map", "pose_stale", "map_stale",
-          "not_finite", "unknown_frame", "inside_obstacle", "off_the_map", "unreachable", "not_seen",
-          "intruder", "machine_slow", "pad_late", "battery_low", "connection_slow", "two_drivers",
-          "no_rumble", "second_pad", "pad_firmware", "zone_keep_out", "zone_slow", "zone_rack",
-          "start", "enter", "pick", "drop", "scan",
-          "goal_sure", "menu_begin", "menu_goals", "menu_place", "menu_glossary", "menu_remember",
-          "menu_end", "menu_end_sure", "menu_empty", "menu_settings", "setting", "setting_open",
-          "setting_changed", "no_trial",
-          "menu_closed", "goal_chosen", "place_saved", "place_no_file", "place_no_pose",
-          "of", "not_kept", "not_saved",
-          "time_up", "over",
-          "distance", "side", "blocked", "then", "goal",
-          "new_route", "way_blocked",
-          "no_goal", "around_nothing", "where_place", "help_pad", "help_keys"};
-}
+/// A kind has the word of its row.
+void names(CueKind) = delete;
 // clang-format on
 
 /// Kinds that are treated alike.
@@ -101,7 +81,6 @@ enum class Ask : std::uint8_t {
   halt,        ///< hands off
   rest,        ///< the goal is reached
 };
-
 
 /// How a kind of cue is treated.
 struct CueTraits {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 
@@ -34,16 +33,5 @@ struct DriveState {
   std::string intruder = {};
   Assistance assistance = Assistance::nothing;
 };
-
-[[nodiscard]] constexpr std::array<const char*, 3> names(DriveState::State) {
-  return {"waiting", "running", "stopped"};
-}
-[[nodiscard]] constexpr std::array<const char*, 6> names(DriveState::Reason) {
-  return {"none",           "command_lost", "command_invalid",
-          "driver_changed", "clock_jumped", "emergency_stop"};
-}
-[[nodiscard]] constexpr std::array<const char*, 4> names(DriveState::Assistance) {
-  return {"nothing", "slows", "steers_left", "steers_right"};
-}
 
 }  // namespace navvi_types

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -86,18 +85,5 @@ struct Guidance {
   /// There is one that does not lead aside.
   [[nodiscard]] bool leads_to_goal() const { return leads() && state != State::make_room; }
 };
-
-[[nodiscard]] constexpr std::array<const char*, 11> names(Guidance::State) {
-  return {"no_goal", "following",  "arrived",   "goal_refused", "no_route", "off_mesh",
-          "no_map",  "pose_stale", "map_stale", "blocked",      "make_room"};
-}
-[[nodiscard]] constexpr std::array<const char*, 7> names(Guidance::Refusal) {
-  return {"none",        "not_finite",  "unknown_frame", "inside_obstacle",
-          "off_the_map", "unreachable", "not_seen"};
-}
-[[nodiscard]] constexpr std::array<const char*, 8> names(Guidance::Replan) {
-  return {"none",   "new_goal",         "path_carved",   "too_slow",
-          "period", "waypoint_blocked", "obstacle_near", "map_changed"};
-}
 
 }  // namespace navvi_types

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 namespace navvi_types {
@@ -22,9 +21,5 @@ struct LinkState {
   Late late = Late::no;
   std::int64_t stamp = 0;  ///< ns, ROS time
 };
-
-[[nodiscard]] constexpr std::array<const char*, 3> names(LinkState::Late) {
-  return {"no", "slow", "too_late"};
-}
 
 }  // namespace navvi_types

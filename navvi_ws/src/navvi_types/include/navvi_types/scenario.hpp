@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,9 +19,6 @@ struct Place {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map: where a robot can stand in it
   Eigen::AlignedBox2d area = Eigen::AlignedBox2d(Eigen::Vector2d::Zero());  ///< m, in map
 };
-[[nodiscard]] constexpr std::array<const char*, 4> names(Place::Kind) {
-  return {"dock", "aisle", "cross_aisle", "room"};
-}
 
 /// The task of a session: world, start and goal.
 struct Scenario {

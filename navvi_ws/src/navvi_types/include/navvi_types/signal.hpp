@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "navvi_types/names.hpp"
@@ -23,11 +22,6 @@ enum class Pattern : std::uint8_t {
   hit_obstacle,  ///< two hard knocks, on its side
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
-/// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 13> names(Pattern) {
-  return {"sample", "ready", "begun", "assisted", "rerouted",     "arrived",  "no_sound",
-          "answer", "stuck",  "halt",  "stopped", "hit_obstacle", "hit_shelf"};
-}
 
 /// Short sounds, each recognisably its own.
 enum class Earcon : std::uint8_t {
@@ -52,28 +46,5 @@ enum class Earcon : std::uint8_t {
   unsaid,      ///< instead of words: the voice was lost twice over them
   flow,        ///< all the time, not short: to where to steer, and how fast
 };
-/// As recorded.
-[[nodiscard]] constexpr std::array<const char*, 20> names(Earcon) {
-  return {"turn",
-          "turn_stop",
-          "on_course",
-          "hit_shelf",
-          "hit_obstacle",
-          "shelf_near",
-          "shelf_close",
-          "worker_near",
-          "worker_close",
-          "forklift_near",
-          "forklift_close",
-          "pallet_robot_near",
-          "pallet_robot_close",
-          "thing_near",
-          "thing_close",
-          "arrived",
-          "beacon",
-          "turn_click",
-          "unsaid",
-          "flow"};
-}
 
 }  // namespace navvi_types

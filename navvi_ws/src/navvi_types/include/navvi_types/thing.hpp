@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -17,10 +16,6 @@ namespace navvi_types {
 /// The class of a thing (R-SIM-4). `floor` can be driven on and is in no message; everything else
 /// is an obstacle.
 enum class ThingClass { floor, shelf, wall, box, pedestal, worker, forklift, pallet_robot, other };
-[[nodiscard]] constexpr std::array<const char*, 9> names(ThingClass) {
-  return {"floor",  "shelf",    "wall",         "box",  "pedestal",
-          "worker", "forklift", "pallet_robot", "other"};
-}
 
 /// One thing near the robot (R-SIM-7).
 struct NearThing {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 
@@ -30,15 +29,5 @@ struct TrialRequest {
   Kind kind = Kind::begin;
   std::int64_t stamp = 0;  ///< ns, ROS time, when the button was pressed
 };
-
-[[nodiscard]] constexpr std::array<const char*, 5> names(TrialState::State) {
-  return {"free", "preparing", "choose_goal", "ready", "running"};
-}
-[[nodiscard]] constexpr std::array<const char*, 4> names(TrialState::Task) {
-  return {"drive", "pick", "drop", "scan"};
-}
-[[nodiscard]] constexpr std::array<const char*, 2> names(TrialRequest::Kind) {
-  return {"begin", "end"};
-}
 
 }  // namespace navvi_types

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 
@@ -24,9 +23,5 @@ struct ZoneState {
   double backward = kFastest;  ///< m/s, likewise back
   std::int64_t stamp = 0;      ///< ns, ROS time
 };
-
-[[nodiscard]] constexpr std::array<const char*, 4> names(ZoneState::Kind) {
-  return {"none", "keep_out", "slow", "rack"};
-}
 
 }  // namespace navvi_types

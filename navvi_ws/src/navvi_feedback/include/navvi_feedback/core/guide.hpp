@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <any>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -30,23 +31,19 @@ using senses::Devices;
 class GuideConfig {
  public:
   GuideConfig();
-  GuideConfig(const GuideConfig& other);
-  GuideConfig& operator=(const GuideConfig& other);
-  ~GuideConfig();
 
   void describe(navvi_config::Visitor& visit);
-  /// Short sounds are played.
   [[nodiscard]] bool has_sounds() const;
   /// The way of leading. \param audible  there is something to hear
   [[nodiscard]] std::string lead(bool audible) const;
 
   /// Known to this package alone.
   struct Values;
-  [[nodiscard]] Values* operator->() { return values_.get(); }
-  [[nodiscard]] const Values* operator->() const { return values_.get(); }
+  [[nodiscard]] Values* operator->();
+  [[nodiscard]] const Values* operator->() const;
 
  private:
-  std::unique_ptr<Values> values_;
+  std::any values_;
 };
 
 /// The core of feedback_node without devices and without a clock: values and a time go in, orders

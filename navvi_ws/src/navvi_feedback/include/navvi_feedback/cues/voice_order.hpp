@@ -8,7 +8,6 @@
 
 namespace navvi_feedback::cues {
 
-/// An order to the voice.
 struct VoiceOrder {
   bool stop = false;                      ///< fall silent, before `start`
   std::optional<std::string> start = {};  ///< begin to speak this text

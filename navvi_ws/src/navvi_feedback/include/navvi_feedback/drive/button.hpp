@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <navvi_types/names.hpp>
 
 namespace navvi_feedback::drive {
@@ -23,9 +22,5 @@ enum class Button {
   leave,     ///< closes the menu, and does nothing else
 };
 constexpr std::size_t kButtons = 14;
-[[nodiscard]] constexpr std::array<const char*, kButtons> names(Button) {
-  return {"repeat", "goal", "around",   "where",  "turn", "help",     "start",
-          "end",    "next", "previous", "choose", "back", "settings", "leave"};
-}
 
 }  // namespace navvi_feedback::drive

@@ -6,7 +6,6 @@
 
 namespace navvi_feedback::menu {
 
-/// A place that the people on site have named.
 struct NamedPlace {
   std::string name;                              ///< as cues::is_place_name() allows
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map

@@ -22,7 +22,6 @@ class GuidedPerson {
                const people::SimulatedOperatorConfig& person, int occasion, bool speech,
                const std::string& phrases);
 
-  /// As Guide::take.
   void take(const navvi_feedback::core::Guide::Message& message, double time) {
     guide_.take(message, time);
   }
@@ -33,7 +32,6 @@ class GuidedPerson {
     people::Felt motors;
     bool motors_due = false;  ///< they are felt from now on
   };
-  /// What the wheels are to do.
   struct Command {
     navvi_types::Velocity velocity;
     double lag = 0.0;  ///< s, of a simulated connection: the age of what it answers

@@ -107,7 +107,6 @@ class Ears {
   /// \param elsewhere  as above
   void sounds(const Sound& sound, bool elsewhere, double time);
 
-  /// As Hearing::covered().
   [[nodiscard]] bool noisy(double dt) { return hearing_.covered(dt); }
 
   /// Sentences that are being spoken, by the id of their cue.

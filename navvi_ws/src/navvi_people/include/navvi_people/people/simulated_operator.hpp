@@ -37,7 +37,6 @@ struct SimulatedOperatorConfig {
   [[nodiscard]] SimulatedOperatorConfig typed() const;
 };
 
-/// What the hands do.
 struct StickAndButtons {
   double left = 0.0;     ///< stick [-1, 1], left is positive
   double forward = 0.0;  ///< stick [-1, 1], forward is positive

@@ -102,7 +102,6 @@ struct Situation {
   [[nodiscard]] bool busy() const { return mode == Mode::backing || mode == Mode::arrived; }
   /// m, to where one expects to stop
   [[nodiscard]] double left() const { return course.stop_at - at.odometer; }
-  /// What leads all the time has led lately.
   [[nodiscard]] bool shown_lately(double time) const;
   /// rad, clockwise, of a turn: 1 or 11 after straight on is an edge that was just passed
   [[nodiscard]] double angle_of(const Instruction& told) const;
