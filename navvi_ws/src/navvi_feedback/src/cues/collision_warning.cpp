@@ -43,7 +43,7 @@ constexpr double kTurns = 0.4;
 /// m/s, as a person begins to drive who was told to go on.
 constexpr double kGoesOn = 0.6;
 /// Of the time at which words are to stop.
-constexpr double kLate = 0.5;
+constexpr double kLate = 0.5, kLateByHand = 0.75;
 /// m, from a corner to what stands behind it.
 constexpr double kBehindCorner = 0.5;
 
@@ -148,8 +148,9 @@ std::optional<CollisionWarning::Danger> CollisionWarning::soonest(const Observat
 /// s, the time to collision at which the word is to stop.
 double CollisionWarning::stop_time(const Observation& now, const NearThing& thing) const {
   // What leads all the time has slowed down and ended before.
-  if (lasts(now.lead))
-    return kLate * (thing.moving ? config_.stop_moving : config_.stop_standing);
+  if (lasts(now.lead) && thing.moving) return kLate * config_.stop_moving;
+  if (now.lead == Lead::flow) return kLate * config_.stop_standing;
+  if (now.lead == Lead::hand) return kLateByHand * config_.stop_standing;
   if (thing.moving) return config_.stop_moving;
   const bool turns_off_before = now.guidance && now.guidance->is_followed() &&
                                 now.guidance->waypoint_distance < thing.gap + kBehindCorner;

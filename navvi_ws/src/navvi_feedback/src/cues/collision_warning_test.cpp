@@ -33,6 +33,21 @@ TEST_F(StopTest, what_moves_is_stopped_for_by_the_time_to_collision) {
   EXPECT_NEAR(gap_ / 1.5, 2.5, 0.1) << "s before the collision";
 }
 
+TEST_F(StopTest, what_leads_all_the_time_stops_later_but_the_hand_feels_it_before_the_ear_hears_it) {
+  now_.measured->linear = 0.9;
+  std::uint32_t id = 3;
+  for (const auto& [lead, seconds] : {std::pair{Lead::flow, 0.75}, {Lead::hand, 1.125}}) {
+    now_.lead = lead;
+    last_ = {};
+    approach({ThingClass::shelf, ++id, 3.0, {3.4, 0.0}, false}, 0.9, 3.2);
+    while (last_.kind != CueKind::obstacle_stop && gap_ > 0.1)
+      approach({ThingClass::shelf, id, gap_, {gap_ + 0.4, 0.0}, false}, 0.9, 3.2);
+    EXPECT_EQ(last_.kind, CueKind::obstacle_stop);
+    EXPECT_NEAR(gap_ / 0.9, seconds, 0.1);
+    pass(20.0, {});
+  }
+}
+
 TEST_F(StopTest, so_is_a_shelf_but_later_if_the_guide_turns_off_before_it) {
   now_.measured->linear = 0.9;
   EXPECT_EQ(approach({ThingClass::shelf, 3, 3.0, {3.4, 0.0}, false}, 0.9, 3.0), Sides{Side::ahead});

@@ -14,6 +14,7 @@ constexpr double kKeeps = 0.25;       // m, from what stands ahead
 constexpr double kKeepsMoving = 0.6;  // m, from what moves
 constexpr double kBrakes = 1.0;       // s, over which what is left of the gap is driven
 constexpr double kReaction = 1.0;     // s, that a person takes to a slower speed
+constexpr double kAside = 1.7;        // s, over which what is left of the way to a wall is driven
 constexpr double kCreep = 0.15;       // m/s, towards what stands: the path leads round it
 constexpr double kNoticed = 0.08;     // m/s; what is slower is shown as to stand
 constexpr double kBehind = -0.2;      // m, in base_link; what is farther back is passed
@@ -28,11 +29,16 @@ double allowed(const std::vector<NearThing>& nearby, double half_lane, double fr
   for (const NearThing& thing : nearby) {
     if (!thing.moving && thing.nearest.x() > kBehind && thing.gap < beside)
       most = std::min(most, std::max(kCreep, full * thing.gap / beside));
-    if (thing.nearest.x() <= 0.0 || std::abs(thing.nearest.y()) > half_lane) continue;
+    if (thing.nearest.x() <= 0.0) continue;
+    const bool in_lane = std::abs(thing.nearest.y()) <= half_lane;
+    if (!in_lane && (thing.moving || beside < kBesideByHand)) continue;
+    // Along the nose, to a face beside the lane.
+    const double way = in_lane ? thing.gap : thing.gap * thing.nearest.norm() / thing.nearest.x();
     // Whoever sets off is not shown what would be too fast a moment later.
-    const double slow = std::max(kCreep, (thing.gap - kKeeps) / (kBrakes + kReaction));
+    const double slow = (way - kKeeps) / (in_lane ? kBrakes + kReaction : kAside);
     const double keeps = from_moving + kReaction * std::max(0.0, speed);
-    most = std::min(most, thing.moving ? std::max(0.0, (thing.gap - keeps) / kBrakes) : slow);
+    most = std::min(most, thing.moving ? std::max(0.0, (thing.gap - keeps) / kBrakes)
+                                       : std::max(kCreep, slow));
   }
   return most;
 }

@@ -21,7 +21,8 @@ class Pilot {
  public:
   /// Call it at 50 Hz.
   /// \param off  rad, clockwise, from the nose to where to steer; nullopt: nowhere
-  /// \param beside  m, gap to what stands beside the robot, within which it is led away, and slowly
+  /// \param beside  m, gap to what stands beside the robot, within which it is led away, and slowly;
+  /// with kBesideByHand also slowly towards what stands beside the lane and the nose points at
   /// \param speed  m/s, of the robot
   /// \param full  m/s, at full stick
   /// \param time  s, of a clock that does not run backwards

@@ -8,10 +8,10 @@ namespace {
 constexpr double kFull = 0.9;  // m/s
 
 std::optional<Course> shown(std::optional<double> off, const std::vector<NearThing>& nearby = {},
-                            double speed = 0.0) {
+                            double speed = 0.0, double beside = kBesideBySound) {
   Pilot pilot;
-  (void)pilot.update(off, {}, kBesideBySound, speed, kFull, 9.9);
-  return pilot.update(off, nearby, kBesideBySound, speed, kFull, 10.0);
+  (void)pilot.update(off, {}, beside, speed, kFull, 9.9);
+  return pilot.update(off, nearby, beside, speed, kFull, 10.0);
 }
 
 NearThing thing(double gap, double x, double y, bool moving) {
@@ -34,6 +34,15 @@ TEST(Pilot, slows_down_before_what_is_ahead_and_stands_before_what_moves) {
   EXPECT_FALSE(shown(0.0, {thing(0.5, 0.9, 0.0, true)}));
   EXPECT_FALSE(shown(0.0, {thing(1.0, 1.4, 0.0, true)}, 0.8)) << "a person takes time to stop";
   EXPECT_TRUE(shown(0.5, {thing(0.5, 0.9, 0.0, true)})) << "there is something to turn";
+}
+
+TEST(Pilot, slows_the_hand_down_before_a_wall_beside_the_lane_that_the_nose_points_at) {
+  const std::vector<NearThing> ahead = {thing(0.5, 0.6, 0.7, false)};
+  const double way = 0.5 * std::hypot(0.6, 0.7) / 0.6;
+  EXPECT_NEAR(shown(0.0, ahead, 0.7, kBesideByHand).value().speed, (way - 0.25) / 1.7 / kFull, 1e-9);
+  EXPECT_DOUBLE_EQ(shown(0.0, ahead, 0.7).value().speed, 1.0) << "a sound is followed at once";
+  EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.5, 0.1, 0.8, false)}, 0.7, kBesideByHand).value().speed, 1.0)
+      << "along it";
 }
 
 TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
