@@ -2,14 +2,17 @@
 number of the first. And disks that fail, and programs that are killed, at each call of what writes such files."""
 import contextlib
 import errno
+import io
 import os
 import random
 import struct
+import xmlrpc.client
 
 import pytest
 
 from small_study import EXAMPLE, PACKAGE
 from navvi_study import journal, plan_file, questionnaire, record, study
+from navvi_cli import near_master
 from navvi_people import batch
 from navvi_study.errors import StudyError
 
@@ -82,6 +85,25 @@ def test_a_damaged_file_is_read_or_refused(name, read, tmp_path, study_journal):
                 raise
             except Exception as problem:
                 raise AssertionError(f"number {number} of {name}") from problem
+
+
+class Bytes(xmlrpc.client.Transport):
+    """In place of a connection: what is answered is said beforehand."""
+
+    def single_request(self, *_, **__):
+        return self.parse_response(io.BytesIO(self.answer))
+
+
+@pytest.mark.parametrize("value", [{"a": {"b": 1.5}, "c": True}, ["http://127.0.0.1:1/"], [[1, "http://127.0.0.1:1/", "i", "TCPROS", "/chat", 1]]],
+                         ids=["parameters", "publishers", "connections"])
+def test_a_damaged_answer_of_a_foreign_master_is_read_or_refused(value):
+    transport = Bytes()
+    far = xmlrpc.client.ServerProxy("http://127.0.0.1:1/", transport=transport)
+    whole = xmlrpc.client.dumps(((1, "", value),), methodresponse=True).encode()
+    for number in range(FIRST, FIRST + ROUNDS):
+        transport.answer = damaged(whole, random.Random(number))
+        with contextlib.suppress(*near_master.LOST, near_master.REFUSED):
+            assert len(near_master.ask(far, "getParam")) == 3, number
 
 
 def test_a_record_without_any_time_of_the_monotonic_clock_places_no_mark(tmp_path):
