@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <ros/network.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <std_msgs/Bool.h>
 #include <xmlrpcpp/XmlRpc.h>
 
@@ -12,6 +13,7 @@
 #include <functional>
 #include <limits>
 #include <navvi_types/msg_conversion.hpp>
+#include <vector>
 
 #include "measured.hpp"
 
@@ -187,6 +189,28 @@ TEST_F(Relay, drops_commands_that_piled_up_while_it_was_halted) {
   EXPECT_TRUE(drive_until(0.5, [&] { return (ros::WallTime::now() - halted).toSec() > 1.0; }));
   ASSERT_EQ(kill(relay, SIGCONT), 0);
   expect_stopped_until_neutral();
+}
+
+TEST(ClockLink, passes_on_time_that_a_robot_sets_back_but_not_what_was_overtaken) {
+  ros::NodeHandle node;
+  std::vector<double> heard;
+  const ros::Subscriber here = node.subscribe<rosgraph_msgs::Clock>(
+      "person/clock", 10, [&](const rosgraph_msgs::Clock::ConstPtr& msg) {
+        heard.push_back(msg->clock.toSec());
+      });
+  ros::Publisher robot = node.advertise<rosgraph_msgs::Clock>("person/robot_clock", 10);
+  ros::WallRate rate(20);
+  for (int i = 0; i < 200 && (robot.getNumSubscribers() == 0 || here.getNumPublishers() == 0); ++i)
+    rate.sleep();
+  for (const double time : {10.0, 9.9, 10.0, 7.1, 6.9, 7.0}) {
+    rosgraph_msgs::Clock msg;
+    msg.clock = ros::Time(time);
+    robot.publish(msg);
+    rate.sleep();
+    ros::spinOnce();
+  }
+  for (int i = 0; i < 100 && heard.size() < 4; ++i, rate.sleep()) ros::spinOnce();
+  EXPECT_EQ(heard, (std::vector<double>{10.0, 10.0, 6.9, 7.0}));
 }
 
 }  // namespace
