@@ -54,6 +54,37 @@ def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(wor
         ("1", "no", "the trial broke off", "n/a"), ("2", "yes", "n/a", "trial-1")]
 
 
+def test_what_is_done_and_what_came_of_it_is_told(work):
+    class Closing(Driver):
+        def close(self, folder):
+            closed.append(folder.name)
+    closed, said = [], []
+    begun = begin(work.study, "none", "killed", "aborted", driver=Closing, say=said.append)
+    assert begun.next("sub-01") is None
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    begun.next("sub-01")
+    assert closed == ["s1-c1-trial-1-a2"]
+    assert [row["excluded_by"] for row in table.trials(work.study, work.study.progress())] == ["rule"]
+    assert said[0].startswith("navvi: sub-01: ")
+    for line in ("no trial began", "sub-01: aborted, 20.0 s; the record is in ", "the trial does not count: the trial broke off."):
+        assert any(line in one for one in said), line
+    rest(begun)
+    assert said[-1] == "navvi: sub-01: has done everything."
+    assert session.Session(work.study, None).wait, "a break lasts as long as planned"
+
+
+def test_who_ends_practice_is_no_drop_out_and_neither_is_who_arrived(tmp_path):
+    kept = frozen(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 1, collisions_at_most: 3, most: 2}\nlimit: 60"))
+
+    class Ending(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            kept.note(participant, attempt, {"utc": "", "mono_ns": 1, "type": "abort", "text": ""})
+            super().trial(participant, step, attempt, folder, lock)
+    rest(begin(kept, "aborted", driver=Ending))
+    assert not any(attempt.dropped_out for attempt in kept.progress().person("sub-01").attempts)
+
+
 RULE = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]"
 
 
@@ -85,6 +116,7 @@ def test_D5_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_pat
     rows = table.trials(kept, kept.progress())
     assert [row["counts"] for row in rows if row["participant"] in ("sub-01", "sub-02") and row["condition"] == "plain"] == ["drop-out"] * 2
     assert [row["counts"] for row in rows if row["participant"] == "sub-03" and row["condition"] == "plain"] == ["no", "yes"]
+    assert {row["excluded_by"] for row in rows if row["counts"] == "drop-out"} == {"rule"}
     assert sum("a drop-out, ended by the" in line for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
     lines = overview.status(kept, kept.progress())
     assert any("is a drop-out: ended by the person." in line for line in lines) and not any("without a trial" in line for line in lines)
@@ -229,9 +261,9 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
 def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
     rest(work())
     work.study.journal.append("withdraw", participant="sub-01", data="delete")
-    again = study.Study(work.study.plan)  # after a crash, any command
+    again = [study.Study(work.study.plan) for _ in range(2)][-1]  # after a crash, any command, and the next
     assert not again.home("sub-01").exists()
-    assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"]
+    assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"], "once"
     assert table.trials(again, again.progress()) == [] and table.answers(again, again.progress()) == []
     assert rest(work()) == []
 
@@ -242,6 +274,8 @@ def test_the_study_stops_where_the_plan_says(tmp_path):
     rest(begun)
     with pytest.raises(StudyError, match="stops after 1"):
         begun.next("sub-02")
+    with pytest.raises(StudyError, match="sub-09"):
+        begun.next("sub-09")
 
 
 def test_two_experimenters_do_not_drive_one_participant(work):
