@@ -141,7 +141,7 @@ class Tests:
                 link = link.replace(f" {made} ", f" {folder}/{at}.o ") if f" {made} " in link else re.sub(r"(/usr/bin/\S+\+\+) ", rf"\1 {folder}/{at}.o ", link, 1)
             link = re.sub(rf"-o {re.escape(self.program)} ", f"-o {folder}/tests ", link)
             link = re.split(r" && (?=/usr/bin/cmake|cd )", link)[0].removeprefix(": && ")
-            linked = subprocess.run(link, shell=True, cwd=self.build, capture_output=True, text=True)
+            linked = subprocess.run(f"{link} -fuse-ld=gold -Wl,-S", shell=True, cwd=self.build, capture_output=True, text=True)
             if linked.returncode:
                 sys.exit(f"{self.package}: the tests cannot be linked: {linked.stderr[-400:]}")
             if not self.words.program:
@@ -215,6 +215,7 @@ def main():
     parser.add_argument("--run", default="", help="a command that fails where the program is at fault")
     parser.add_argument("--tests", default="", help="files of Python tests")
     parser.add_argument("--pytest", action="append", default=[], help="a word for pytest")
+    parser.add_argument("--lines", type=lambda text: set(map(int, text.split(","))), help="these alone, such as 9,71")
     parser.add_argument("--jobs", type=int, default=2)
     words = parser.parse_args()
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job's tests would ignore it
@@ -226,7 +227,8 @@ def main():
         if tests.notice(text) is not False:
             sys.exit(f"{name}: the tests fail as it is.")
         words.limit = 20.0 + LONGEST * (time.monotonic() - begun)
-        lines, all_of_it = text.split("\n"), list(mutants(source, text))
+        lines = text.split("\n")
+        all_of_it = [one for one in mutants(source, text) if not words.lines or one[0] + 1 in words.lines]
         with concurrent.futures.ThreadPoolExecutor(words.jobs) as pool:
             for (number, changed, _), result in zip(all_of_it, pool.map(tests.notice, [text for _, _, text in all_of_it])):
                 if result is None:

@@ -271,11 +271,25 @@ def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
 def test_the_study_stops_where_the_plan_says(tmp_path):
     kept = frozen(tmp_path, ("limit: 60", "stop: {completed: 1}\nlimit: 60"))
     begun = begin(kept)
+    assert not kept.progress().over
     rest(begun)
+    assert kept.progress().over
     with pytest.raises(StudyError, match="stops after 1"):
         begun.next("sub-02")
     with pytest.raises(StudyError, match="sub-09"):
         begun.next("sub-09")
+
+
+def test_who_is_excluded_does_nothing_more_and_counts_in_nothing(work):
+    said = []
+    begun = work(say=said.append)
+    begun.next("sub-01")
+    actions.exclude(exclusion(work.study, "sub-01", "was ill"))
+    assert begun.next("sub-01") is None and said[-1] == "navvi: sub-01: is excluded: was ill."
+    assert [row["counts"] for row in table.trials(work.study, work.study.progress())] == ["no"]
+    for what, says in ("sub-01", "excluded already: was ill"), ("sub-01/trial-9", "names 0 trials"):
+        with pytest.raises(StudyError, match=says):
+            actions.exclude(exclusion(work.study, what, "again"))
 
 
 def test_two_experimenters_do_not_drive_one_participant(work):
