@@ -35,6 +35,8 @@ def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_pat
         rest(session.Session(changed, Driver(changed)))
     with pytest.raises(StudyError, match="--reason"):
         changed.freeze("test", None)
+    with pytest.raises(StudyError, match="nothing has changed"):
+        kept.freeze("test", "once more")
     assert changed.freeze("test", "too short") == ["limit: 60.0 is now 90.0"]
     assert changed.progress().freezes[-1]["changes"] == ["limit: 60.0 is now 90.0"]
 

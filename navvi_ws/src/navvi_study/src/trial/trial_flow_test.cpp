@@ -69,6 +69,7 @@ TEST(TrialFlow, takes_a_clock_that_comes_later_than_the_reports_for_no_other_tim
 TEST(TrialFlow, a_goal_reached_just_before_another_end_counts_but_not_with_holes_in_the_record) {
   const Ending reached{"reached", "goal_reached", 1}, late{"timeout", "limit", 1};
   EXPECT_EQ(TrialFlow::last_word(late, reached, false).result, "reached");
+  EXPECT_EQ(TrialFlow::last_word(late, reached, false).reason, "goal_reached");
   EXPECT_EQ(TrialFlow::last_word(late, std::nullopt, false).result, "timeout");
   EXPECT_EQ(TrialFlow::last_word({"invalid", "disk_full", 1}, reached, false).result, "invalid");
   EXPECT_EQ(TrialFlow::last_word(reached, reached, true).result, "invalid");
