@@ -116,9 +116,12 @@ class Disk:
 
     def __init__(self, fault="", at=0):
         self.fault, self.at, self.count, self.synced, self.sizes = fault, at, 0, True, []
+        self.last = ""
 
     def __getattr__(self, name):
         call = getattr(os, name) if name != "fsync" else lambda file: self.sizes.append(os.fstat(file).st_size)
+        assert name != "replace" or self.last == "fsync", "a file is named before it is synced"
+        self.last = name
         self.synced = name == "fsync" or self.synced and name in ("open", "close")
         return (lambda *words: self.meet(call, *words)) if name in ("open", "write", "fsync", "ftruncate", "replace") else call
 

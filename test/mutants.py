@@ -161,7 +161,7 @@ class Tests:
         words = drop([word for word in words if word != "-Werror"] + ["-w"], "-MF")  # as optimized as the precompiled headers are
         changed = path.with_name(f".{path.stem}-{folder.name}.cpp")
         if path != self.source:
-            name = re.search(r"(?:include/|src/)((?:\w+/)*\w+\.hpp)$", str(self.source))[1]
+            name = re.fullmatch(r".*/(?:include|src)/(.*)", str(self.source))[1]
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text)
             words[1:1] = [f"-I{folder}"]

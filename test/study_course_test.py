@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import shutil
 import signal
+import subprocess
 import sys
 import time
 
@@ -295,8 +296,23 @@ def test_who_is_excluded_does_nothing_more_and_counts_in_nothing(work):
 
 
 def test_two_experimenters_do_not_drive_one_participant(work):
-    with work.study.claimed("sub-01"), pytest.raises(StudyError, match="running still"):
-        work().next("sub-01")
+    with work.study.claimed("sub-01"):
+        files = len(os.listdir("/proc/self/fd"))
+        with pytest.raises(StudyError, match="running still"):
+            work().next("sub-01")
+        assert len(os.listdir("/proc/self/fd")) == files
+
+
+def test_a_program_that_holds_a_participant_without_a_session_is_stopped(work):
+    with work.study.claimed("sub-01") as lock:
+        holder = subprocess.Popen(["sleep", "60"], pass_fds=[lock])
+    assert work.study.stop("sub-01") == {holder.pid: "sleep"} and holder.wait() == -signal.SIGINT
+    assert work.study.stop("sub-01") == {}
+
+
+def test_what_is_frozen_is_no_more_than_the_plan_asks_for(work):
+    assert not work.study.seed_file.exists() and not work.study.concealed
+    assert study.differences({"a": {"b": 1}, "c": [1]}, {"a": 2, "c": [1, 2]}) == ['a: {"b": 1} is now 2', "c: [1] is now [1, 2]"]
 
 
 @pytest.mark.parametrize("with_command", [True, False])
