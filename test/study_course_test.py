@@ -308,6 +308,13 @@ def test_a_program_that_holds_a_participant_without_a_session_is_stopped(work):
         holder = subprocess.Popen(["sleep", "60"], pass_fds=[lock])
     assert work.study.stop("sub-01") == {holder.pid: "sleep"} and holder.wait() == -signal.SIGINT
     assert work.study.stop("sub-01") == {}
+    with work.study.claimed("sub-01") as lock:
+        holder = subprocess.Popen(["sh", "-c", "trap '' INT; exec sleep 60"], pass_fds=[lock])
+    assert eventually(lambda: work.study.running("sub-01") == {holder.pid: "sleep"}, 10)
+    with pytest.raises(StudyError, match=f"did not end within 0.1 s; \"kill -9 {holder.pid}\" ends it"):
+        work.study.stop("sub-01", seconds=0.1)
+    holder.kill()
+    holder.wait()
 
 
 def test_what_is_frozen_is_no_more_than_the_plan_asks_for(work):

@@ -34,7 +34,10 @@ class Relay : public testing::Test {
         });
     state_ = node_.subscribe<navvi_msgs::DriveState>(
         "navvi/drive_state", 10,
-        [this](const navvi_msgs::DriveState::ConstPtr& msg) { drive_ = *msg; });
+        [this](const navvi_msgs::DriveState::ConstPtr& msg) {
+          drive_ = *msg;
+          ++states_;
+        });
   }
 
   /// By another connection than before.
@@ -95,6 +98,7 @@ class Relay : public testing::Test {
 
   double speed_ = std::numeric_limits<double>::quiet_NaN();
   navvi_msgs::DriveState drive_;
+  int states_ = 0;  ///< that came
 
  private:
   bool spin_until(const std::function<void()>& send, const std::function<bool()>& done) {
@@ -204,13 +208,14 @@ TEST_F(Relay, publishes_its_time_and_twice_a_second_the_state_of_the_connection)
       "navvi/link", 10, [&](const navvi_msgs::LinkState::ConstPtr&) { ++links; });
   const ros::Subscriber clock = node.subscribe<rosgraph_msgs::Clock>(
       "navvi/clock", 100, [&](const rosgraph_msgs::Clock::ConstPtr&) { ++clocks; });
-  ASSERT_TRUE(wait_until([&] { return links > 0; }));
+  ASSERT_TRUE(wait_until([&] { return links > 0 && states_ > 0; })) << "the state is latched";
   links = clocks = 0;
   const ros::WallTime begin = ros::WallTime::now();
   EXPECT_TRUE(wait_until([&] { return (ros::WallTime::now() - begin).toSec() > 3.0; }));
   EXPECT_GE(links, 4);
   EXPECT_LE(links, 7);
   EXPECT_GT(clocks, 30);
+  EXPECT_LE(states_, 3) << "the state is published where it changes";
 }
 
 /// A relay that assists, and is to have zones.
