@@ -126,7 +126,10 @@ class Tests:
         commands = subprocess.run(["ninja", "-C", str(self.build), "-t", "commands", self.program], capture_output=True, text=True, check=True).stdout.splitlines()
         sources = [source]
         if source.suffix == ".hpp":
-            sources = [path for path in (WORKSPACE / "src" / self.package).rglob("*.cpp") if f"/{source.name}\"" in path.read_text()]
+            headers, before = {source}, 0
+            while before < (before := len(headers)):
+                headers |= set(including(headers, self.package, "*.hpp"))
+            sources = including(headers, self.package, "*.cpp")
         self.compile = {path: shlex.split(line.replace("ccache ", "")) for path in sources for line in commands if f" -c {path}" in line}
         self.link = next(line for line in reversed(commands) if f"-o {self.program} " in line or f",{self.program} " in line)
 
@@ -198,6 +201,11 @@ def fails(words, folder, limit):
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             return True
+
+
+def including(headers, package, pattern):
+    names = re.compile("|".join(rf"[/\"]{header.name}[\">]" for header in headers))
+    return [path for path in (WORKSPACE / "src" / package).rglob(pattern) if names.search(path.read_text())]
 
 
 def drop(words, option):

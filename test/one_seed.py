@@ -3,8 +3,8 @@
 
     test/one_seed.py [SETTING ...] [--clang=clang++]
 
-Settings: default (the workspace as it is), O0, O3, native, uncontracted (native without fused operations), clang, sanitized; without any, all. Of each, a build folder of some
-hundred MB, which goes away again. One processor: taskset -c 0 test/one_seed.py.
+Settings: default (the workspace as it is), O0, O3, native, uncontracted (native without fused operations), clang, sanitized; without any, all.
+Of each, a build folder of some hundred MB, which goes away again. On one processor: taskset -c 0 test/one_seed.py.
 """
 import argparse
 import csv

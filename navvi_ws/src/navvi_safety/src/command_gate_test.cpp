@@ -272,6 +272,15 @@ TEST_F(Gate, C9_C10_a_burst_after_a_gap_never_drives) {
   }
 }
 
+TEST_F(Gate, C9_a_command_that_a_later_one_overtook_does_not_count) {
+  delayed(0.5, Velocity{}, 0.1);
+  delayed(0.1, Velocity{1.0, 0.0}, 0.1);
+  gate_.receive({Velocity{0.5, 0.0}, 0.1, seq_ - 24}, now_);
+  EXPECT_EQ(gate_.update(now_).linear, 1.0);
+  gate_.receive({Velocity{0.5, 0.0}, 0.1, seq_ - 25}, now_);
+  EXPECT_EQ(gate_.update(now_).linear, 0.5) << "the person's side was started anew";
+}
+
 TEST(LinkMeter, counts_the_commands_that_never_came) {
   LinkMeter meter;
   for (unsigned seq = 1; seq <= 200; ++seq)

@@ -54,7 +54,7 @@ std::string drive(int seed) {
   return row;
 }
 
-TEST(Soak, K3_a_thousand_trials_in_one_process_repeat_themselves_and_leave_nothing_behind) {
+TEST(Soak, S6_a_thousand_trials_in_one_process_repeat_themselves_and_leave_nothing_behind) {
   std::map<int, std::string> first;
   Held before;
   for (int round = 0; round < kRounds; ++round) {
