@@ -162,19 +162,16 @@ class Tests:
         made = words[words.index("-o") + 1]
         words[words.index("-o") + 1] = to
         words = drop([word for word in words if word != "-Werror"] + ["-w"], "-MF")  # as optimized as the precompiled headers are
-        changed = path.with_name(f".{path.stem}-{folder.name}.cpp")
         if path != self.source:
-            name = re.fullmatch(r".*/(?:include|src)/(.*)", str(self.source))[1]
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_text(text)
+            changed = folder / re.fullmatch(r".*/(?:include|src)/(.*)", str(self.source))[1]
             words[1:1] = [f"-I{folder}"]
         else:
-            changed.write_text(text)
+            changed = folder / path.name
             words = [str(changed) if word == str(path) else word for word in words]
-        try:
-            return None if subprocess.run(words, cwd=self.build, capture_output=True).returncode else made
-        finally:
-            changed.unlink(missing_ok=True)
+            words[1:1] = ["-iquote", str(path.parent)]
+        changed.parent.mkdir(parents=True, exist_ok=True)
+        changed.write_text(text)
+        return None if subprocess.run(words, cwd=self.build, capture_output=True).returncode else made
 
 
 class Pytest:
