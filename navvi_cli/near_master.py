@@ -19,6 +19,19 @@ AT_ONCE = 64  # what is passed on at the same time
 AGAIN = 1.0  # s
 CONNECTED = 10.0  # s, from one look at the connections to the next
 ENDS = {"registerSubscriber": "i", "registerPublisher": "o"}  # of a connection, as getBusInfo has them
+LOST = (OSError, http.client.HTTPException)  # the connection
+REFUSED = xmlrpc.client.Error
+
+
+def ask(server, method, *words):
+    """Its code, sentence and value. Raises LOST, or REFUSED, also where what it answers cannot be read."""
+    try:
+        code, sentence, value = getattr(server, method)(*words)
+        return code, sentence, value
+    except (*LOST, REFUSED):
+        raise
+    except Exception as problem:  # xmlrpc.client raises many for an answer that is none
+        raise xmlrpc.client.ResponseError(f"cannot read the answer to {method}: {problem}") from None
 
 
 class NearMaster:
@@ -26,7 +39,8 @@ class NearMaster:
         """Of the master at that URI. `uri` is its own."""
         self.far, self.of_thread = uri, threading.local()
         self.own = ROSMasterHandler(num_workers=1)
-        self.own.setParam("/navvi", "/", self.ask("getParam", "/navvi", "/")[2])
+        parameters = self.ask("getParam", "/navvi", "/")[2]
+        self.own.setParam("/navvi", "/", parameters if isinstance(parameters, dict) else {})
         self.registered, self.lock = {}, threading.Lock()  # the words of the last call, by method, node and topic
         self.waiting = [queue.Queue() for _ in range(AT_ONCE)]
         for one in self.waiting:
@@ -41,7 +55,7 @@ class NearMaster:
     def ask(self, method, *words):
         if not hasattr(self.of_thread, "master"):
             self.of_thread.master = xmlrpc.client.ServerProxy(self.far, allow_none=True)
-        return getattr(self.of_thread.master, method)(*words)
+        return ask(self.of_thread.master, method, *words)
 
     def _dispatch(self, method, words):
         if method in HERE:
@@ -74,8 +88,8 @@ class NearMaster:
     def connections(address):
         """(end, topic) of each that the node has; None if it has ended."""
         try:
-            return {(one[2], one[4]) for one in xmlrpc.client.ServerProxy(address).getBusInfo("/master")[2]}
-        except (OSError, xmlrpc.client.Error):
+            return {(one[2], one[4]) for one in ask(xmlrpc.client.ServerProxy(address), "getBusInfo", "/master")[2]}
+        except (*LOST, REFUSED, LookupError, TypeError):
             return None
 
     def pass_on(self, waiting):
@@ -94,18 +108,18 @@ class NearMaster:
         while True:
             try:
                 return self.ask(method, *words)
-            except (OSError, http.client.HTTPException):  # the connection
+            except LOST:
                 del self.of_thread.master
                 time.sleep(AGAIN)
-            except xmlrpc.client.Error as refused:
+            except REFUSED as refused:
                 return 0, str(refused), []
 
     @staticmethod
     def tell(subscriber, publishers):
         _, topic, _, address = subscriber
         try:
-            xmlrpc.client.ServerProxy(address).publisherUpdate("/master", topic, publishers)
-        except OSError:  # it has ended
+            ask(xmlrpc.client.ServerProxy(address), "publisherUpdate", "/master", topic, publishers)
+        except (*LOST, REFUSED):  # it has ended, or what the master names are no publishers
             pass
 
     def finish(self, seconds):

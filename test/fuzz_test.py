@@ -2,14 +2,17 @@
 number of the first. And disks that fail, and programs that are killed, at each call of what writes such files."""
 import contextlib
 import errno
+import io
 import os
 import random
 import struct
+import xmlrpc.client
 
 import pytest
 
 from small_study import EXAMPLE, PACKAGE
 from navvi_study import journal, plan_file, questionnaire, record, study
+from navvi_cli import near_master
 from navvi_people import batch
 from navvi_study.errors import StudyError
 
@@ -84,6 +87,25 @@ def test_a_damaged_file_is_read_or_refused(name, read, tmp_path, study_journal):
                 raise AssertionError(f"number {number} of {name}") from problem
 
 
+class Bytes(xmlrpc.client.Transport):
+    """In place of a connection: what is answered is said beforehand."""
+
+    def single_request(self, *_, **__):
+        return self.parse_response(io.BytesIO(self.answer))
+
+
+@pytest.mark.parametrize("value", [{"a": {"b": 1.5}, "c": True}, ["http://127.0.0.1:1/"], [[1, "http://127.0.0.1:1/", "i", "TCPROS", "/chat", 1]]],
+                         ids=["parameters", "publishers", "connections"])
+def test_a_damaged_answer_of_a_foreign_master_is_read_or_refused(value):
+    transport = Bytes()
+    far = xmlrpc.client.ServerProxy("http://127.0.0.1:1/", transport=transport)
+    whole = xmlrpc.client.dumps(((1, "", value),), methodresponse=True).encode()
+    for number in range(FIRST, FIRST + ROUNDS):
+        transport.answer = damaged(whole, random.Random(number))
+        with contextlib.suppress(*near_master.LOST, near_master.REFUSED):
+            assert len(near_master.ask(far, "getParam")) == 3, number
+
+
 def test_a_record_without_any_time_of_the_monotonic_clock_places_no_mark(tmp_path):
     (tmp_path / "journal.csv").write_bytes(TRIAL.replace(b",5,", b",0,").split(b"trial-1,2,")[0])
     assert record.Record(tmp_path).first("TRIAL_START") and record.Record(tmp_path).onset_of(5) is None
@@ -93,10 +115,14 @@ class Disk:
     """The system's calls, of which one meets a fault: the program is killed before, after or amid it, it is short, or has an error."""
 
     def __init__(self, fault="", at=0):
-        self.fault, self.at, self.count = fault, at, 0
+        self.fault, self.at, self.count, self.synced, self.sizes = fault, at, 0, True, []
+        self.last = ""
 
     def __getattr__(self, name):
-        call = getattr(os, name) if name != "fsync" else lambda file: None
+        call = getattr(os, name) if name != "fsync" else lambda file: self.sizes.append(os.fstat(file).st_size)
+        assert name != "replace" or self.last == "fsync", "a file is named before it is synced"
+        self.last = name
+        self.synced = name == "fsync" or self.synced and name in ("open", "close")
         return (lambda *words: self.meet(call, *words)) if name in ("open", "write", "fsync", "ftruncate", "replace") else call
 
     def meet(self, call, *words):
@@ -146,7 +172,8 @@ def test_L3_what_is_known_to_be_written_stays_and_what_was_refused_does_not(name
     write, read = WRITTEN[name]
     known, told = os.pipe()
     path = tmp_path / name
-    calls = write_all(path, write, Disk(), told)
+    calls = write_all(path, write, disk := Disk(), told)
+    assert (disk.synced or name == "rows-1.csv") and 0 not in disk.sizes, "a row of a batch is made again"
     assert read(path)[-1] == 3 and os.read(known, 9) == b"123" and calls >= 6
     for at in range(1, calls + 1):
         path = tmp_path / str(at) / name

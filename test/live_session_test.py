@@ -18,7 +18,7 @@ from octomap_msgs.msg import Octomap
 
 import hearing
 from display import Display
-from sessions import DARK, WORLD, Command, Session, rows_of, sound, summary
+from sessions import DARK, ROOT, WORLD, Command, Session, rows_of, sound, summary
 
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/odom", "/octomap_binary", "/occupied_cells_vis_array", "/navvi/scene",
@@ -99,6 +99,32 @@ def test_M3_nothing_listens_beyond_the_loopback_interface(session):
     assert ours
     for line in ours:
         assert line.split()[3].startswith(("127.0.0.1:", "[::1]:")), line
+
+
+SOCKETS = """
+import os, socket
+def place(family, kind, address, ip=None):
+    if ip:
+        os.environ["ROS_IP"] = ip
+    with socket.socket(family, kind) as one:
+        one.bind((address, 0))
+        return one.getsockname()[0]
+v4, v6, tcp, udp = socket.AF_INET, socket.AF_INET6, socket.SOCK_STREAM, socket.SOCK_DGRAM
+print(place(v4, tcp, ""), place(v4, udp, ""), place(v4, tcp, "", "127.0.0.5"), place(v4, tcp, "127.0.0.7", "127.0.0.5"), place(v6, tcp, "::"))
+one = socket.socket(v4, tcp)
+print(one.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY), one.getsockopt(socket.IPPROTO_TCP, 25),
+      socket.socket(v6, tcp).getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
+with socket.socket(socket.AF_UNIX) as local:
+    local.bind("\\0" + 40 * "n")
+    print(len(local.getsockname()))
+"""
+
+
+def test_M3_a_socket_for_all_interfaces_is_the_loopback_s_or_that_of_ROS_IP_and_sends_at_once():
+    env = dict(os.environ, LD_PRELOAD=str(ROOT / "navvi_ws/devel/lib/libnavvi_loopback.so"))
+    env.pop("ROS_IP", None)
+    found = subprocess.check_output(["/usr/bin/python3", "-c", SOCKETS], text=True, env=env)
+    assert found == "127.0.0.1 127.0.0.1 127.0.0.5 127.0.0.7 ::1\n1 8192 1\n41\n"
 
 
 def test_an_outsider_reads_the_octomap_by_its_public_md5(session):

@@ -1,7 +1,7 @@
 """The robot's master, near to the person's nodes: a real one, and what a node tells it and hears of it."""
 import threading
 import time
-from xmlrpc.client import ServerProxy
+from xmlrpc.client import Fault, ServerProxy
 from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
@@ -77,3 +77,22 @@ def test_a_subscriber_without_a_connection_hears_of_its_publisher_again_until_it
     own.unregisterSubscriber("/listener", "/lost", uri)
     time.sleep(2.0)
     assert ["/lost", ["/listener"]] not in far.getSystemState("/test")[2][1], "what was taken back stays so"
+
+
+def test_a_master_and_a_node_that_answer_nonsense_end_nothing(monkeypatch, node):
+    monkeypatch.setattr(near_master, "CONNECTED", 0.1)
+    monkeypatch.setattr(near_master, "AGAIN", 0.1)
+    uri, _, connections = node
+    connections.append(1)
+    nonsense = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False, allow_none=True)
+    answers = iter([[1, "", 5]])
+    nonsense.register_instance(type("Nonsense", (), {"_dispatch": lambda *_: next(answers, None)})())
+    threading.Thread(target=nonsense.serve_forever, daemon=True).start()
+    near = NearMaster(f"http://127.0.0.1:{nonsense.server_address[1]}")
+    own = ServerProxy(near.uri)
+    for round_ in range(3):
+        assert own.registerSubscriber("/listener", "/chat", "std_msgs/String", uri)[0] == 1
+        assert eventually(lambda: near.finish(0.1), 10), round_
+    with pytest.raises(Fault, match="cannot read the answer to lookupNode"):
+        own.lookupNode("/test", "/talker")
+    nonsense.shutdown()

@@ -6,6 +6,7 @@ import multiprocessing
 import os
 import shutil
 import signal
+import subprocess
 import sys
 import time
 
@@ -35,6 +36,8 @@ def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_pat
         rest(session.Session(changed, Driver(changed)))
     with pytest.raises(StudyError, match="--reason"):
         changed.freeze("test", None)
+    with pytest.raises(StudyError, match="nothing has changed"):
+        kept.freeze("test", "once more")
     assert changed.freeze("test", "too short") == ["limit: 60.0 is now 90.0"]
     assert changed.progress().freezes[-1]["changes"] == ["limit: 60.0 is now 90.0"]
 
@@ -52,6 +55,37 @@ def test_a_trial_that_breaks_off_is_kept_and_a_reserve_world_takes_its_place(wor
     rows = table.trials(work.study, work.study.progress())
     assert [(row["attempt"], row["counts"], row["excluded"], row["replaces"]) for row in rows[:2]] == [
         ("1", "no", "the trial broke off", "n/a"), ("2", "yes", "n/a", "trial-1")]
+
+
+def test_what_is_done_and_what_came_of_it_is_told(work):
+    class Closing(Driver):
+        def close(self, folder):
+            closed.append(folder.name)
+    closed, said = [], []
+    begun = begin(work.study, "none", "killed", "aborted", driver=Closing, say=said.append)
+    assert begun.next("sub-01") is None
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    begun.next("sub-01")
+    assert closed == ["s1-c1-trial-1-a2"]
+    assert [row["excluded_by"] for row in table.trials(work.study, work.study.progress())] == ["rule"]
+    assert said[0].startswith("navvi: sub-01: ")
+    for line in ("no trial began", "sub-01: aborted, 20.0 s; the record is in ", "the trial does not count: the trial broke off."):
+        assert any(line in one for one in said), line
+    rest(begun)
+    assert said[-1] == "navvi: sub-01: has done everything."
+    assert session.Session(work.study, None).wait, "a break lasts as long as planned"
+
+
+def test_who_ends_practice_is_no_drop_out_and_neither_is_who_arrived(tmp_path):
+    kept = frozen(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 1, collisions_at_most: 3, most: 2}\nlimit: 60"))
+
+    class Ending(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            kept.note(participant, attempt, {"utc": "", "mono_ns": 1, "type": "abort", "text": ""})
+            super().trial(participant, step, attempt, folder, lock)
+    rest(begin(kept, "aborted", driver=Ending))
+    assert not any(attempt.dropped_out for attempt in kept.progress().person("sub-01").attempts)
 
 
 RULE = "exclusions: [{column: result, is: [aborted, invalid], reason: the trial broke off}]"
@@ -85,6 +119,7 @@ def test_D5_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_pat
     rows = table.trials(kept, kept.progress())
     assert [row["counts"] for row in rows if row["participant"] in ("sub-01", "sub-02") and row["condition"] == "plain"] == ["drop-out"] * 2
     assert [row["counts"] for row in rows if row["participant"] == "sub-03" and row["condition"] == "plain"] == ["no", "yes"]
+    assert {row["excluded_by"] for row in rows if row["counts"] == "drop-out"} == {"rule"}
     assert sum("a drop-out, ended by the" in line for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
     lines = overview.status(kept, kept.progress())
     assert any("is a drop-out: ended by the person." in line for line in lines) and not any("without a trial" in line for line in lines)
@@ -239,9 +274,9 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
 def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
     rest(work())
     work.study.journal.append("withdraw", participant="sub-01", data="delete")
-    again = study.Study(work.study.plan)  # after a crash, any command
+    again = [study.Study(work.study.plan) for _ in range(2)][-1]  # after a crash, any command, and the next
     assert not again.home("sub-01").exists()
-    assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"]
+    assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"], "once"
     assert table.trials(again, again.progress()) == [] and table.answers(again, again.progress()) == []
     assert rest(work()) == []
 
@@ -249,14 +284,52 @@ def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
 def test_the_study_stops_where_the_plan_says(tmp_path):
     kept = frozen(tmp_path, ("limit: 60", "stop: {completed: 1}\nlimit: 60"))
     begun = begin(kept)
+    assert not kept.progress().over
     rest(begun)
+    assert kept.progress().over
     with pytest.raises(StudyError, match="stops after 1"):
         begun.next("sub-02")
+    with pytest.raises(StudyError, match="sub-09"):
+        begun.next("sub-09")
+
+
+def test_who_is_excluded_does_nothing_more_and_counts_in_nothing(work):
+    said = []
+    begun = work(say=said.append)
+    begun.next("sub-01")
+    actions.exclude(exclusion(work.study, "sub-01", "was ill"))
+    assert begun.next("sub-01") is None and said[-1] == "navvi: sub-01: is excluded: was ill."
+    assert [row["counts"] for row in table.trials(work.study, work.study.progress())] == ["no"]
+    for what, says in ("sub-01", "excluded already: was ill"), ("sub-01/trial-9", "names 0 trials"):
+        with pytest.raises(StudyError, match=says):
+            actions.exclude(exclusion(work.study, what, "again"))
 
 
 def test_two_experimenters_do_not_drive_one_participant(work):
-    with work.study.claimed("sub-01"), pytest.raises(StudyError, match="running still"):
-        work().next("sub-01")
+    with work.study.claimed("sub-01"):
+        files = len(os.listdir("/proc/self/fd"))
+        with pytest.raises(StudyError, match="running still"):
+            work().next("sub-01")
+        assert len(os.listdir("/proc/self/fd")) == files
+
+
+def test_a_program_that_holds_a_participant_without_a_session_is_stopped(work):
+    with work.study.claimed("sub-01") as lock:
+        holder = subprocess.Popen(["sleep", "60"], pass_fds=[lock])
+    assert work.study.stop("sub-01") == {holder.pid: "sleep"} and holder.wait() == -signal.SIGINT
+    assert work.study.stop("sub-01") == {}
+    with work.study.claimed("sub-01") as lock:
+        holder = subprocess.Popen(["sh", "-c", "trap '' INT; exec sleep 60"], pass_fds=[lock])
+    assert eventually(lambda: work.study.running("sub-01") == {holder.pid: "sleep"}, 10)
+    with pytest.raises(StudyError, match=f"did not end within 0.1 s; \"kill -9 {holder.pid}\" ends it"):
+        work.study.stop("sub-01", seconds=0.1)
+    holder.kill()
+    holder.wait()
+
+
+def test_what_is_frozen_is_no_more_than_the_plan_asks_for(work):
+    assert not work.study.seed_file.exists() and not work.study.concealed
+    assert study.differences({"a": {"b": 1}, "c": [1]}, {"a": 2, "c": [1, 2]}) == ['a: {"b": 1} is now 2', "c: [1] is now [1, 2]"]
 
 
 @pytest.mark.parametrize("with_command", [True, False])

@@ -58,6 +58,22 @@ def test_a_file_that_changed_after_its_trial_is_named(work):
     assert verify._files(trial, {}) == "no sums", "as in journals of before"
 
 
+def test_verify_names_what_differs_in_journal_and_table(work, tmp_path):
+    rest(work())
+    attempt, trial = trial_of(work.study)
+    write_record(trial)
+    header, cells = (trial / "summary.csv").read_text().splitlines()
+    (trial / "summary.csv").write_text(f"{header},condition\n{cells},plain\n")
+    (tmp_path / "bad").write_text("#!/bin/sh\necho row 3 is damaged >&2\necho more\nexit 1\n")
+    (tmp_path / "bad").chmod(0o755)
+    row, state = table.trials(work.study, work.study.progress())[0], work.study.progress()
+    found = verify.verify(work.study, state, tmp_path / "bad")[0][0]
+    assert "journal differs: row 3 is damaged, bag no bag" in found
+    for condition, words in (("plain", "equal"), ("full", "differs in condition")):
+        assert verify._table(work.study, {**row, "condition": condition}, attempt) == words
+    assert verify._table(work.study, {**row, "condition": "plain", "elapsed_s": "1"}, attempt) == "differs in elapsed_s"
+
+
 JOB = ("a: {world: easy", "a: {jobs: round.yaml, world: easy")
 
 

@@ -63,8 +63,14 @@ TEST_F(Gate, does_not_move_before_any_command) {
 }
 
 TEST_F(Gate, does_not_move_for_a_stick_that_was_never_neutral) {
-  hold(2.0, Velocity{1.0, 0.0});
-  EXPECT_EQ(wheels_.linear, 0.0);
+  for (const Velocity held : {Velocity{1.0, 0.0}, {0.03, 0.0}, {-0.03, 0.0}, {0.0, 0.03}, {0.0, -0.03}}) {
+    hold(2.0, held);
+    EXPECT_EQ(gate_.state(), CommandGate::State::waiting) << held.linear << ' ' << held.angular;
+    EXPECT_EQ(wheels_.linear, 0.0);
+    EXPECT_EQ(wheels_.angular, 0.0);
+  }
+  hold(0.4, Velocity{-0.02, 0.02});
+  EXPECT_EQ(gate_.state(), CommandGate::State::running);
 }
 
 TEST_F(Gate, moves_after_the_stick_was_neutral) {
@@ -195,15 +201,15 @@ TEST_F(Gate, C3_bad_commands_are_counted_and_extend_nothing) {
   start();
   const double inf = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double bad : {nan, inf, -inf, 1e308}) {
-    now_.wall += kStep;
-    now_.sim += kStep;
-    gate_.receive({Velocity{bad, 0.0}}, now_);
-    gate_.receive({Velocity{0.0, bad}}, now_);
+  for (const auto& [linear, angular] : {std::pair{nan, nan}, {inf, inf}, {-inf, -inf}, {1e308, 1e308}, {15.1, 25.1}, {-15.1, -25.1}}) {
+    now_.wall += 0.01;
+    now_.sim += 0.01;
+    gate_.receive({Velocity{linear, 0.0}}, now_);
+    gate_.receive({Velocity{0.0, angular}}, now_);
   }
   gate_.receive({}, now_);
-  EXPECT_EQ(gate_.rejected(), 9u);
-  EXPECT_EQ(gate_.update(now_).linear, 1.0) << "the last valid command is 80 ms old";
+  EXPECT_EQ(gate_.rejected(), 13u);
+  EXPECT_EQ(gate_.update(now_).linear, 1.0) << "the last valid command is 60 ms old";
   hold(0.2, std::nullopt);
   EXPECT_EQ(wheels_.linear, 0.0);
   EXPECT_EQ(gate_.reason(), CommandGate::Reason::command_invalid);
@@ -266,6 +272,15 @@ TEST_F(Gate, C9_C10_a_burst_after_a_gap_never_drives) {
   }
 }
 
+TEST_F(Gate, C9_a_command_that_a_later_one_overtook_does_not_count) {
+  delayed(0.5, Velocity{}, 0.1);
+  delayed(0.1, Velocity{1.0, 0.0}, 0.1);
+  gate_.receive({Velocity{0.5, 0.0}, 0.1, seq_ - 24}, now_);
+  EXPECT_EQ(gate_.update(now_).linear, 1.0);
+  gate_.receive({Velocity{0.5, 0.0}, 0.1, seq_ - 25}, now_);
+  EXPECT_EQ(gate_.update(now_).linear, 0.5) << "the person's side was started anew";
+}
+
 TEST(LinkMeter, counts_the_commands_that_never_came) {
   LinkMeter meter;
   for (unsigned seq = 1; seq <= 200; ++seq)
@@ -277,6 +292,19 @@ TEST(LinkMeter, counts_the_commands_that_never_came) {
   EXPECT_EQ(state.stamp, 7);
   meter.add(0.1, 1, 10.0);
   EXPECT_EQ(meter.state(0).loss, 0.0) << "the person's side was started anew";
+}
+
+TEST(LinkMeter, has_the_figures_of_a_few_commands_by_hand) {
+  LinkMeter meter;
+  meter.add(0.1, 1, 0.0);
+  EXPECT_EQ(meter.state(0).jitter, 0.0);
+  meter.add(0.4, 2, 0.1);
+  meter.add(0.2, 3, 0.2);
+  EXPECT_NEAR(meter.state(0).jitter, 0.25, 1e-12);
+  EXPECT_EQ(meter.state(0).round_trip, 0.2);
+  EXPECT_EQ(meter.state(0).late, LinkMeter::Late::no);
+  meter.add(0.6, 4, 0.3);
+  EXPECT_EQ(meter.state(0).late, LinkMeter::Late::slow);
 }
 
 TEST_F(Gate, C4_a_command_beyond_the_limits_is_clamped_and_counted) {

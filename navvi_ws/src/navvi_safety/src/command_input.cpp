@@ -1,15 +1,13 @@
 #include "navvi_safety/command_input.hpp"
 
 #include <ros/console.h>
-#include <ros/network.h>
 
 #include <algorithm>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_safety {
 
-ros::TransportHints command_transport() {
-  const std::string& host = ros::network::getHost();
+ros::TransportHints command_transport(const std::string& host) {
   const bool alone = host == "localhost" || host.rfind("127.", 0) == 0;
   ros::TransportHints hints;
   if (!alone) hints.unreliable();

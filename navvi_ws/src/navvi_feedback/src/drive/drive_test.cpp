@@ -118,6 +118,10 @@ TEST_F(DriveOf, slows_down_by_the_brakes_also_where_the_stick_is_thrown_over) {
     const Velocity released = *hold(Stick{}, 1.0);
     EXPECT_EQ(released.linear, 0.0) << "a full stop";
     EXPECT_EQ(released.angular, 0.0);
+    EXPECT_NEAR(hold(Stick{0.0, -1.0}, kStep)->linear, -config_.acceleration * kStep, 1e-9);
+    hold(Stick{0.0, -1.0}, 3.0);
+    EXPECT_NEAR(hold(Stick{0.0, -to}, kStep)->linear,
+                config_.deceleration * kStep - config_.max_reverse, 1e-9);
   }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <geometry_msgs/TwistStamped.h>
+#include <ros/network.h>
 #include <ros/ros.h>
 
 #include <boost/weak_ptr.hpp>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,8 +19,9 @@ namespace navvi_safety {
 constexpr int kCommandQueue = 100;
 
 /// How commands come: from another machine by UDP, so that one that is lost holds up none that
-/// follow.
-[[nodiscard]] ros::TransportHints command_transport();
+/// follow. \param host  at which this node listens
+[[nodiscard]] ros::TransportHints command_transport(
+    const std::string& host = ros::network::getHost());
 
 /// Passes commands on to the gate if their publisher may drive; warns of what is rejected.
 class CommandInput {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <map>
+#include <navvi_files/cache.hpp>
 #include <navvi_types/random.hpp>
 #include <set>
 
@@ -320,6 +321,49 @@ TEST_F(PowerLoss, L3_leaves_every_event_that_was_published_as_lasting_and_figure
     judge(out, published);
     if (HasFailure()) return;
     fs::remove_all(out);
+  }
+}
+
+TEST_F(PowerLoss, L3_a_world_that_was_kept_is_found_whole_or_not_at_all) {
+  const std::string old(3000, 'a'), newer(2000, 'b');
+  const auto cache = [](const fs::path& folder, const navvi_files::SystemCalls& calls) {
+    return navvi_files::Cache({folder, 16, "one"}, calls);
+  };
+  const auto keep_both = [&](const fs::path& folder, Disk& disk) {
+    for (const std::string& result : {old, newer}) cache(folder, disk.calls()).keep("hall", result);
+  };
+  const auto expect_whole = [&](const fs::path& folder) {
+    const auto later = cache(folder, navvi_files::SystemCalls::real());
+    const auto found = later.find("hall");
+    EXPECT_TRUE(!found || *found == old || *found == newer);
+    later.keep("hall", "newest");
+    EXPECT_EQ(later.find("hall"), "newest");
+    fs::remove_all(folder);
+  };
+  std::vector<Call> calls;
+  Disk whole(Fault::none, 0, &calls);
+  keep_both(folder_ / "whole", whole);
+  ASSERT_EQ(whole.count(), 4);
+  for (const Fault fault : kFaults) {
+    for (int at = 1; at <= whole.count(); ++at) {
+      SCOPED_TRACE("fault " + std::to_string(static_cast<int>(fault)) + " at " + std::to_string(at));
+      const pid_t child = ::fork();
+      if (child == 0) {
+        Disk disk(fault, at);
+        keep_both(folder_ / "kept", disk);
+        ::_exit(0);
+      }
+      ::waitpid(child, nullptr, 0);
+      expect_whole(folder_ / "kept");
+    }
+  }
+  navvi_types::Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    LostPower power(random);
+    for (std::size_t at = 0; at <= static_cast<std::size_t>(i) % calls.size(); ++at)
+      power.take(calls[at]);
+    power.leave(folder_ / "whole", folder_ / "kept");
+    expect_whole(folder_ / "kept");
   }
 }
 

@@ -94,6 +94,22 @@ TEST(Readiness, needs_the_devices_of_the_condition) {
   ready.saw({0, "speech", DeviceState::works}, 0.0);
   ready.saw({0, "pad", DeviceState::off}, 0.0);
   EXPECT_EQ(ready.missing(0.1, true), Words{"a working pad device"});
+  for (const auto& [modality, needed] : {std::pair{"rumble", Words{"a working pad device"}},
+                                         {"speech", {"a working audio device", "a working speech device"}}}) {
+    Readiness one({modality});
+    one.saw_odometry(0.0);
+    one.saw(guidance(Guidance::State::no_goal), 0.0);
+    one.saw({0, "keys", DeviceState::works}, 0.0);
+    EXPECT_EQ(one.missing(0.1, true), needed);
+  }
+}
+
+TEST(Readiness, keeps_what_a_device_says_of_itself) {
+  Readiness ready({});
+  EXPECT_EQ(ready.trait("pad", "name"), "unknown");
+  ready.saw({0, "pad", DeviceState::works, {{"name", "some pad"}}}, 0.0);
+  EXPECT_EQ(ready.trait("pad", "name"), "some pad");
+  EXPECT_EQ(ready.trait("pad", "colour"), "unknown");
 }
 
 }  // namespace

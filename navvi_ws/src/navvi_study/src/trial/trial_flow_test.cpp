@@ -69,9 +69,24 @@ TEST(TrialFlow, takes_a_clock_that_comes_later_than_the_reports_for_no_other_tim
 TEST(TrialFlow, a_goal_reached_just_before_another_end_counts_but_not_with_holes_in_the_record) {
   const Ending reached{"reached", "goal_reached", 1}, late{"timeout", "limit", 1};
   EXPECT_EQ(TrialFlow::last_word(late, reached, false).result, "reached");
+  EXPECT_EQ(TrialFlow::last_word(late, reached, false).reason, "goal_reached");
   EXPECT_EQ(TrialFlow::last_word(late, std::nullopt, false).result, "timeout");
   EXPECT_EQ(TrialFlow::last_word({"invalid", "disk_full", 1}, reached, false).result, "invalid");
   EXPECT_EQ(TrialFlow::last_word(reached, reached, true).result, "invalid");
+}
+
+TEST(TrialFlow, names_the_part_that_had_been_silent_before_a_signal) {
+  Signs signs = at(20.0);
+  EXPECT_EQ(TrialFlow::reason_of_stop(signs), "stopped_by_signal");
+  for (const auto& [silence, reason] : {std::pair{&Signs::feedback_silence, "feedback_lost"},
+                                        {&Signs::guidance_silence, "guidance_lost"},
+                                        {&Signs::odometry_silence, "simulator_lost"}}) {
+    const std::string before = TrialFlow::reason_of_stop(signs);
+    signs.*silence = 0.9;
+    EXPECT_EQ(TrialFlow::reason_of_stop(signs), before);
+    signs.*silence = 1.1;
+    EXPECT_EQ(TrialFlow::reason_of_stop(signs), reason);
+  }
 }
 
 TEST(GoalTries, sends_a_goal_three_times_two_seconds_apart_then_gives_up) {
@@ -106,10 +121,13 @@ TEST(GoalTries, a_goal_that_is_forgotten_is_sent_again_with_all_tries) {
 TEST(GoalTries, a_goal_that_a_person_set_is_sent_again_only_if_it_is_not_taken) {
   GoalTries tries;
   EXPECT_EQ(tries.next(false, 0.0), Next::send);
-  EXPECT_EQ(tries.next(true, 1.0), Next::wait);
+  EXPECT_EQ(tries.next(false, 2.0), Next::send);
+  EXPECT_EQ(tries.next(true, 3.0), Next::wait);
   tries.sent_elsewhere(50.0);
   EXPECT_EQ(tries.next(false, 50.1), Next::wait);
   EXPECT_EQ(tries.next(false, 52.1), Next::send);
+  EXPECT_EQ(tries.next(false, 54.1), Next::send);
+  EXPECT_EQ(tries.next(false, 56.1), Next::give_up) << "the person's was the first of three";
 }
 
 }  // namespace
