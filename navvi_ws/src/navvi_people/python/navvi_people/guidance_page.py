@@ -18,7 +18,7 @@ ALONE = "feedback/lead:=hand+feedback/sounds/enabled:=false+speech:=false"
 BATCHES = {
     "closing": ["--seeds=92001-92200", THREE, CLOSING],
     "worlds": ["--worlds=narrow,warehouse", "--seeds=92001-92030", THREE, CLOSING],
-    "noise": ["--seeds=92441-93040", THREE, f"--conditions=noise_numb={NOISE}+feedback/haptics/enabled:=false,noise_hand={NOISE}+feedback/lead:=hand"],
+    "noise": ["--seeds=104001-104600", THREE, f"--conditions=noise_numb={NOISE}+feedback/haptics/enabled:=false,noise_hand={NOISE}+feedback/lead:=hand"],
     "worse": ["--seeds=92441-92480", THREE, f"--conditions=sighted,flow_worse=feedback/lead:=flow+{WORSE},hand_worse={ALONE}+{WORSE}"],
     "drawn": ["--seeds=92001-92005", "--people=drawn:1-20", CLOSING],
     "choices": ["--seeds=92401-92440", THREE,
