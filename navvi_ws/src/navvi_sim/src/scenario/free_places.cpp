@@ -74,6 +74,7 @@ void mark(const FloorWays& ways, const Polygon& polygon, double gap,
     const auto cells = [&](double x) { return std::clamp((x - first.x()) / step, 0.0, count); };
     end = std::min(end, begin + static_cast<std::size_t>(cells(high)) + 2);
     begin += static_cast<std::size_t>(cells(low));
+    // It is convex: what it holds of a row hangs together.
     const auto holds = [&](std::size_t cell) { return ground.holds(ways.centre(cell), gap); };
     while (begin < end && !holds(begin)) ++begin;
     while (begin < end && !holds(end - 1)) --end;
