@@ -99,11 +99,13 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   const AuditoryDisplay::Steering led = steering(now, dt);
   for (const sounds::Play& play : sounds.update(decided, now, led, teacher.taught(), time))
     out.plays.push_back(play);
-  auto course = pilot.update(lasts(now.lead) && !teacher.speaks() ? led.off : std::nullopt,
-                             now.nearby,
+  std::optional<lead::Way> way;
+  if (lasts(now.lead) && !teacher.speaks() && led.off)
+    way = lead::Way{*led.off, now.guidance->waypoint_distance, now.guidance->turn_angle};
+  auto course = pilot.update(way, now.nearby,
                              now.lead == Lead::hand ? lead::kBesideByHand : lead::kBesideBySound,
                              now.motion().linear, config.drive.max_forward, time);
-  if (now.lead == Lead::flow) following.update(course, now.motion(), time);
+  if (now.lead == Lead::flow) following.update(course ? led.off : std::nullopt, now.motion(), time);
   if (const auto& lesson_course = teacher.taught().course) {
     course = lesson_course->course;
     now.lead = lesson_course->lead;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_feedback::lead {
 namespace {
@@ -13,13 +14,22 @@ constexpr double kLongest = 8.0;      // s; what is still there then is taken to
 constexpr double kKeeps = 0.25;       // m, from what stands ahead
 constexpr double kKeepsMoving = 0.6;  // m, from what moves
 constexpr double kBrakes = 1.0;       // s, over which what is left of the gap is driven
-constexpr double kReaction = 1.0;     // s, that a person takes to a slower speed
+constexpr double kReaction = 1.5;     // s, that a person takes to a slower speed
 constexpr double kAside = 1.7;        // s, over which what is left of the way to a wall is driven
 constexpr double kCreep = 0.15;       // m/s, towards what stands: the path leads round it
 constexpr double kNoticed = 0.08;     // m/s; what is slower is shown as to stand
 constexpr double kBehind = -0.2;      // m, in base_link; what is farther back is passed
 constexpr double kAway = 0.3;         // rad
 constexpr double kDue = 0.1;          // rad; more is turned on the spot while the way is not free
+constexpr double kPast = 0.35;        // rad, likewise what is past a thing that is nearer than kKeeps
+// A steering person as the predictor has it: between the able and the struggling.
+constexpr double kDelay = 0.6;     // s, from what is shown to the turn
+constexpr double kGain = 1.0;      // 1/s, turn rate over what is shown
+constexpr double kFastest = 1.0;   // rad/s
+constexpr double kTick = 0.02;     // s
+constexpr double kBend = 0.5;      // share of the speed that an angle of kOnTheSpot takes
+constexpr double kCorner = 0.15;   // share of the full speed at a right angle
+constexpr double kBefore = 3.0;    // m, over which the speed falls to that
 
 /// m/s that what is ahead, within so many m to either side, allows.
 /// \param from_moving  m, to be kept from what moves
@@ -62,24 +72,47 @@ haptics::Rumble flow_of(const Course& course) {
   return {0.5 * sum * (1.0 - lean), 0.5 * sum * (1.0 + lean)};
 }
 
-std::optional<Course> Pilot::update(std::optional<double> off,
-                                    const std::vector<NearThing>& nearby, double beside,
-                                    double speed, double full, double time) {
-  if (!off) {
+double Pilot::pending(double time) {
+  while (!shown_.empty() && (shown_.front().first < time - kDelay || shown_.back().first > time))
+    shown_.pop_front();
+  double turn = 0.0;
+  for (const auto& one : shown_) turn += kTick * std::clamp(kGain * one.second, -kFastest, kFastest);
+  return turn;
+}
+
+std::optional<Course> Pilot::update(std::optional<Way> way, const std::vector<NearThing>& nearby,
+                                    double beside, double speed, double full, double time) {
+  if (!way) {
     went_ = time;
     return std::nullopt;
   }
-  const double bend = std::max(0.0, 1.0 - std::abs(*off) / kOnTheSpot);
+  const bool due = std::abs(way->off) >= kDue;
+  way->off -= pending(time);
+  const std::optional<Course> shown = course(*way, nearby, beside, speed, full, time);
+  if (!shown || (shown->speed <= 0.0 && !due)) return std::nullopt;
+  shown_.emplace_back(time, shown->turn);
+  return shown;
+}
+
+std::optional<Course> Pilot::course(const Way& way, const std::vector<NearThing>& nearby,
+                                    double beside, double speed, double full, double time) {
+  const double off = std::abs(way.off);
+  const double sharp = std::min(1.0, std::abs(way.turn) / (0.5 * navvi_types::kPi));
+  const double corner = 1.0 - (1.0 - kCorner) * sharp + way.corner / kBefore;
+  const double bend = off > kOnTheSpot ? 0.0 : std::min(corner, 1.0 - kBend * off / kOnTheSpot);
   double free = allowed(nearby, kHalfLane, kKeepsMoving, beside, speed, full);
   if (free > kNoticed || !went_) went_ = time;
   if (const double waited = time - *went_; waited > kPatience) {
     const double from_moving = waited > kLongest ? kKeeps : kKeepsMoving;
     free = std::min(kCreep, allowed(nearby, kSqueezes, from_moving, beside, speed, full));
   }
-  if (free <= kNoticed) free = 0.0;
-  if (free <= 0.0 && std::abs(*off) < kDue) return std::nullopt;
-  const double aside = std::abs(*off) < kOnTheSpot ? away(nearby, beside) : 0.0;
-  return Course{*off + aside, std::min(bend, free / full)};
+  const bool before = std::any_of(nearby.begin(), nearby.end(), [](const NearThing& thing) {
+    return thing.nearest.x() > 0.0 && thing.gap < kKeeps;
+  });
+  if (free <= kNoticed || (before && off > kPast)) free = 0.0;
+  if (free <= 0.0 && off < kDue) return std::nullopt;
+  const double aside = off < kOnTheSpot ? away(nearby, beside) : 0.0;
+  return Course{way.off + aside, std::min(bend, free / full)};
 }
 
 }  // namespace navvi_feedback::lead

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <deque>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "navvi_feedback/haptics/rumble.hpp"
@@ -14,23 +17,38 @@ struct Course {
   double speed = 0.0;  ///< share of the full speed, [0, 1]; 0: turn on the spot
 };
 
-/// Says how fast the way ahead may be driven: slower into a turn, and towards what stands or moves
-/// ahead; nothing where the robot is to stand. Past what waits beside the lane it creeps, and up to
-/// what does not go away.
+/// The way that is to be shown.
+struct Way {
+  double off = 0.0;  ///< rad, clockwise, from the nose to where to steer
+  double corner = std::numeric_limits<double>::infinity();  ///< m, to the next one
+  double turn = 0.0;                                        ///< rad, there
+};
+
+/// Says how fast the way ahead may be driven: slower into a turn and before a corner, and towards
+/// what stands or moves ahead; nothing where the robot is to stand. Past what waits beside the lane
+/// it creeps, and up to what does not go away. A person steers late, by what was shown before: the
+/// turn that this has yet to bring is not shown again (Smith's predictor, 1957).
 class Pilot {
  public:
   /// Call it at 50 Hz.
-  /// \param off  rad, clockwise, from the nose to where to steer; nullopt: nowhere
+  /// \param way  nullopt: nothing leads
   /// \param beside  m, gap to what stands beside the robot, within which it is led away, and slowly;
   /// with kBesideByHand also slowly towards what stands beside the lane and the nose points at
   /// \param speed  m/s, of the robot
   /// \param full  m/s, at full stick
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::optional<Course> update(std::optional<double> off,
+  [[nodiscard]] std::optional<Course> update(std::optional<Way> way,
                                              const std::vector<NearThing>& nearby, double beside,
                                              double speed, double full, double time);
 
  private:
+  [[nodiscard]] std::optional<Course> course(const Way& way,
+                                             const std::vector<NearThing>& nearby, double beside,
+                                             double speed, double full, double time);
+  /// rad, clockwise, that what was shown is still to turn the robot by
+  [[nodiscard]] double pending(double time);
+
+  std::deque<std::pair<double, double>> shown_;  ///< s; rad
   std::optional<double> went_;  ///< s, when the way was last free to drive, or there was none
 };
 

@@ -10,8 +10,9 @@ constexpr double kFull = 0.9;  // m/s
 std::optional<Course> shown(std::optional<double> off, const std::vector<NearThing>& nearby = {},
                             double speed = 0.0, double beside = kBesideBySound) {
   Pilot pilot;
-  (void)pilot.update(off, {}, beside, speed, kFull, 9.9);
-  return pilot.update(off, nearby, beside, speed, kFull, 10.0);
+  const std::optional<Way> way = off ? std::optional(Way{*off}) : std::nullopt;
+  (void)pilot.update(way, {}, beside, speed, kFull, 9.0);
+  return pilot.update(way, nearby, beside, speed, kFull, 10.0);
 }
 
 NearThing thing(double gap, double x, double y, bool moving) {
@@ -20,20 +21,62 @@ NearThing thing(double gap, double x, double y, bool moving) {
 
 TEST(Pilot, shows_full_speed_straight_on_less_in_a_bend_and_none_to_turn_on_the_spot) {
   EXPECT_DOUBLE_EQ(shown(0.0).value().speed, 1.0);
-  EXPECT_NEAR(shown(kOnTheSpot / 2.0).value().speed, 0.5, 1e-9);
+  EXPECT_NEAR(shown(kOnTheSpot / 2.0).value().speed, 0.75, 1e-9);
   EXPECT_DOUBLE_EQ(shown(-1.0).value().speed, 0.0);
   EXPECT_DOUBLE_EQ(shown(-1.0).value().turn, -1.0);
   EXPECT_FALSE(shown(std::nullopt));
 }
 
 TEST(Pilot, slows_down_before_what_is_ahead_and_stands_before_what_moves) {
-  EXPECT_NEAR(shown(0.0, {thing(0.7, 1.0, 0.0, false)}).value().speed, 0.225 / kFull, 1e-9)
-      << "a person goes on for a second";
+  EXPECT_NEAR(shown(0.0, {thing(0.7, 1.0, 0.0, false)}).value().speed, 0.18 / kFull, 1e-9)
+      << "a person goes on for a while";
   EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.7, 1.0, 0.8, false)}).value().speed, 1.0) << "beside";
   EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.7, -1.0, 0.0, true)}).value().speed, 1.0) << "behind";
   EXPECT_FALSE(shown(0.0, {thing(0.5, 0.9, 0.0, true)}));
   EXPECT_FALSE(shown(0.0, {thing(1.0, 1.4, 0.0, true)}, 0.8)) << "a person takes time to stop";
   EXPECT_TRUE(shown(0.5, {thing(0.5, 0.9, 0.0, true)})) << "there is something to turn";
+}
+
+TEST(Pilot, slows_down_before_a_sharp_corner_and_not_before_the_goal) {
+  const auto before = [](double corner, double turn) {
+    return Pilot().update(Way{0.0, corner, turn}, {}, kBesideBySound, 0.0, kFull, 1.0)->speed;
+  };
+  EXPECT_LT(before(0.5, 1.6), 0.4);
+  EXPECT_DOUBLE_EQ(before(0.5, -1.6), before(0.5, 1.6));
+  EXPECT_GT(before(0.5, 0.5), before(0.5, 1.6) + 0.2);
+  EXPECT_DOUBLE_EQ(before(3.0, 1.6), 1.0);
+  EXPECT_DOUBLE_EQ(before(0.2, 0.0), 1.0) << "the goal";
+}
+
+TEST(Pilot, shows_a_turn_past_what_is_all_but_touched_on_the_spot) {
+  const std::vector<NearThing> shelf = {thing(0.2, 0.5, 0.3, false)};
+  EXPECT_DOUBLE_EQ(shown(0.5, shelf).value().speed, 0.0);
+  EXPECT_GT(shown(0.2, shelf).value().speed, 0.0);
+  EXPECT_GT(shown(0.5, {thing(0.2, -0.1, 0.5, false)}).value().speed, 0.0) << "behind";
+}
+
+/// A robot that turns as late and as quickly as a person steers who is shown the way.
+/// \return rad, by which it turns too far
+double overshoot(double delay, double gain) {
+  Pilot pilot;
+  std::deque<double> pipe(static_cast<std::size_t>(delay / 0.02), 0.0);
+  double off = 0.7, least = off;
+  for (double time = 0.0; time < 20.0; time += 0.02) {
+    const auto course = pilot.update(Way{off}, {}, kBesideBySound, 0.0, kFull, time);
+    pipe.push_back(course.value().turn);
+    off -= 0.02 * gain * pipe.front();
+    pipe.pop_front();
+    least = std::min(least, off);
+  }
+  EXPECT_LT(std::abs(off), 0.01);
+  return -least;
+}
+
+TEST(Pilot, leads_the_able_and_the_slow_round_a_corner_without_turning_too_far) {
+  EXPECT_LT(overshoot(0.3, 2.0), 0.01);
+  EXPECT_LT(overshoot(0.6, 1.0), 0.01);
+  EXPECT_LT(overshoot(1.2, 0.5), 0.05);
+  EXPECT_LT(overshoot(1.0, 1.0), 0.2) << "quicker than fits the delay";
 }
 
 TEST(Pilot, slows_the_hand_down_before_a_wall_beside_the_lane_that_the_nose_points_at) {
@@ -48,9 +91,9 @@ TEST(Pilot, slows_the_hand_down_before_a_wall_beside_the_lane_that_the_nose_poin
 TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
   Pilot pilot;
   const std::vector<NearThing> waits = {thing(0.3, 0.5, 0.5, true)};
-  (void)pilot.update(0.0, {}, kBesideBySound, 0.0, kFull, 9.9);
-  EXPECT_FALSE(pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 11.0));
-  const auto course = pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 12.5);
+  (void)pilot.update(Way{}, {}, kBesideBySound, 0.0, kFull, 9.9);
+  EXPECT_FALSE(pilot.update(Way{}, waits, kBesideBySound, 0.0, kFull, 11.0));
+  const auto course = pilot.update(Way{}, waits, kBesideBySound, 0.0, kFull, 12.5);
   ASSERT_TRUE(course);
   EXPECT_GT(course->speed, 0.0);
   EXPECT_LT(course->speed, 0.2);
@@ -59,20 +102,20 @@ TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
 TEST(Pilot, takes_what_nobody_notices_for_standing) {
   Pilot pilot;
   const std::vector<NearThing> waits = {thing(0.64, 0.9, 0.0, true)};
-  EXPECT_FALSE(pilot.update(0.0, waits, kBesideByHand, 0.0, kFull, 100.0)) << "0.04 m/s";
-  EXPECT_TRUE(pilot.update(0.0, waits, kBesideByHand, 0.0, kFull, 109.0)) << "it does not go away";
+  EXPECT_FALSE(pilot.update(Way{}, waits, kBesideByHand, 0.0, kFull, 100.0)) << "0.04 m/s";
+  EXPECT_TRUE(pilot.update(Way{}, waits, kBesideByHand, 0.0, kFull, 109.0)) << "it does not go away";
 }
 
 TEST(Pilot, creeps_towards_what_does_not_go_away_and_stands_before_it) {
   for (const double gap : {0.5, 0.3}) {
     Pilot pilot;
     const std::vector<NearThing> waits = {thing(gap, 0.4 + gap, 0.0, true)};
-    EXPECT_FALSE(pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 100.0));
-    EXPECT_FALSE(pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 107.9));
-    const auto course = pilot.update(0.0, waits, kBesideBySound, 0.0, kFull, 108.1);
+    EXPECT_FALSE(pilot.update(Way{}, waits, kBesideBySound, 0.0, kFull, 100.0));
+    EXPECT_FALSE(pilot.update(Way{}, waits, kBesideBySound, 0.0, kFull, 107.9));
+    const auto course = pilot.update(Way{}, waits, kBesideBySound, 0.0, kFull, 108.1);
     EXPECT_EQ(course.has_value(), gap > 0.4) << gap;
     EXPECT_LT(course.value_or(Course{}).speed, 0.2);
-    EXPECT_DOUBLE_EQ(pilot.update(0.0, {}, kBesideBySound, 0.0, kFull, 121.0).value().speed, 1.0);
+    EXPECT_DOUBLE_EQ(pilot.update(Way{}, {}, kBesideBySound, 0.0, kFull, 121.0).value().speed, 1.0);
   }
 }
 

@@ -11,7 +11,7 @@ constexpr double kStep = 0.02;  // s
 bool follows_after(double seconds, double rate, double shown = 0.6) {
   Following following;
   for (double time = 0.0; time < seconds; time += kStep)
-    following.update(Course{shown, 0.5}, {0.0, rate}, time);
+    following.update(shown, {0.0, rate}, time);
   return following.follows();
 }
 
@@ -26,7 +26,7 @@ TEST(Following, is_given_up_with_a_person_who_turns_away_or_not_at_all) {
 TEST(Following, begins_anew_with_another_trial) {
   Following following;
   for (double time = 0.0; time < 60.0; time += kStep)
-    following.update(Course{0.6, 0.5}, {0.0, 0.5}, time);
+    following.update(0.6, {0.0, 0.5}, time);
   EXPECT_FALSE(following.follows());
   following.forgive();
   EXPECT_TRUE(following.follows());
