@@ -388,6 +388,7 @@ def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, 
     def fsync(file):
         path = os.readlink(f"/proc/self/fd/{file}")
         synced.append(os.path.basename(path))
+        assert os.path.getsize(path), "the bytes have reached the file"
         if path.endswith(".jsonl"):
             with open(path, "rb") as other, pytest.raises(BlockingIOError):  # no other program writes meanwhile
                 fcntl.flock(other, fcntl.LOCK_EX | fcntl.LOCK_NB)
