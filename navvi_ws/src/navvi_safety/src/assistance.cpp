@@ -63,7 +63,6 @@ void Assistance::drive(double time) {
 }
 
 void Assistance::see(const std::vector<NearThing>& nearby, double time) {
-  if (!on_) return;
   drive(time);
   seen_at_ = time;
   std::map<std::uint32_t, Seen> seen;
@@ -143,12 +142,10 @@ Velocity Assistance::assist(const Velocity& wanted, double time) {
   if (!on_) return wanted;
   drive(time);
   velocity_ = wanted;
-  if (wanted.linear != 0.0) {
-    if (seen_at_ && time - *seen_at_ <= kStale)
-      velocity_ = kept_off(wanted);
-    else
-      velocity_.linear *= kBlind;
-  }
+  if (seen_at_ && time - *seen_at_ <= kStale)
+    velocity_ = kept_off(wanted);
+  else
+    velocity_.linear *= kBlind;
   const double turn = velocity_.angular - wanted.angular;
   tell(turn > 0.0   ? Does::steers_left
        : turn < 0.0 ? Does::steers_right

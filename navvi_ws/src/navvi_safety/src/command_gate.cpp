@@ -35,12 +35,11 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
         "and announced; empty: any node may drive, one at a time");
 }
 
-bool CommandGate::admit(const std::string& node, unsigned link, const Instant& now) {
+bool CommandGate::admit(const std::string& node, unsigned link) {
   if (!config_.driver.empty() && node != config_.driver) {
     intruder_ = node;
     return false;
   }
-  expire(now);
   if (link_ && link != *link_) {
     stop(Reason::driver_changed);
     if (link < latest_link_) intruder_ = node;  // the later link has not replaced this one
@@ -110,7 +109,6 @@ navvi_types::Velocity CommandGate::update(const Instant& now) {
 
 navvi_types::Velocity CommandGate::held_or_driven(const Instant& now) {
   expire(now);
-  if (!last_valid_) return {};
   if (state_ != State::running) {
     const bool held = neutral_since_ && now.wall - neutral_since_->wall >= config_.kNeutralHold &&
                       now.sim - neutral_since_->sim >= config_.kNeutralHold;
