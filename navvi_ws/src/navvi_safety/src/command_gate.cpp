@@ -92,7 +92,6 @@ navvi_types::LinkState CommandGate::link_state(std::int64_t stamp) const {
 
 void CommandGate::stop(Reason reason) {
   last_valid_.reset();
-  neutral_since_.reset();
   if (state_ == State::waiting) return;
   state_ = State::stopped;
   reason_ = reason;
@@ -122,7 +121,6 @@ navvi_types::Velocity CommandGate::held_or_driven(const Instant& now) {
 void CommandGate::expire(const Instant& now) {
   if (last_valid_ && younger_than(config_.timeout, *last_valid_, now)) return;
   const bool back = last_valid_ && now.sim < last_valid_->sim;
-  last_valid_.reset();
   neutral_since_.reset();
   if (state_ == State::running)
     stop(back               ? Reason::clock_jumped
