@@ -374,7 +374,7 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
         file.write(b'{"seq": 4, "ty')
     assert [row["number"] for row in journal.Journal(kept.path).rows()] == [0, 1, 2]
     assert (tmp_path / "journal.torn").read_bytes() == b'{"seq": 4, "ty\n'
-    assert kept.append("done", number=3)["seq"] == 4
+    assert kept.append("done", number=3)["seq"] == 4 and len(journal.Journal(kept.path).rows()) == 4
     lines = kept.path.read_text().splitlines(keepends=True)
     for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]]):
         kept.path.write_text("".join(changed))
@@ -394,12 +394,12 @@ def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, 
                 fcntl.flock(other, fcntl.LOCK_EX | fcntl.LOCK_NB)
         real(file)
     monkeypatch.setattr(os, "fsync", fsync)
-    kept, notes = journal.Journal(tmp_path / "home/journal.jsonl"), tmp_path / "home/notes.jsonl"
+    kept, notes = journal.Journal(tmp_path / "one/home/journal.jsonl"), tmp_path / "two/home/notes.jsonl"
     files = len(os.listdir("/proc/self/fd"))
     for write, wanted in ((lambda: kept.append("done"), ["home", "journal.jsonl"]), (lambda: kept.append("done"), ["journal.jsonl"]),
                           (lambda: (kept.path.open("ab").write(b"torn"), kept.rows()), ["journal.torn", "journal.jsonl"]),
                           (lambda: journal.append_line(notes, {}), ["home", "notes.jsonl"]), (lambda: journal.append_line(notes, {}), ["notes.jsonl"]),
-                          (lambda: study.write_safely(tmp_path / "home/key", "{}"), ["key.new", "home"])):
+                          (lambda: study.write_safely(tmp_path / "three/home/key", "{}"), ["key.new", "home"])):
         write()
         assert synced == wanted
         synced.clear()
