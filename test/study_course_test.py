@@ -376,10 +376,15 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
     assert (tmp_path / "journal.torn").read_bytes() == b'{"seq": 4, "ty\n'
     assert kept.append("done", number=3)["seq"] == 4 and len(journal.Journal(kept.path).rows()) == 4
     lines = kept.path.read_text().splitlines(keepends=True)
-    for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]]):
+    for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]], ["{}\n"]):
         kept.path.write_text("".join(changed))
         with pytest.raises(StudyError, match="damaged, changed"):
             journal.Journal(kept.path).rows()
+    kept.path.write_bytes(b"{")
+    (tmp_path / "journal.torn").unlink()
+    (tmp_path / "journal.torn").mkdir()
+    with pytest.raises(StudyError, match="unfinished row, which cannot be set aside: Is a directory"):
+        journal.Journal(kept.path).rows()
 
 
 def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, monkeypatch):
