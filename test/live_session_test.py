@@ -5,8 +5,10 @@ import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 import rosbag
@@ -113,7 +115,7 @@ v4, v6, tcp, udp = socket.AF_INET, socket.AF_INET6, socket.SOCK_STREAM, socket.S
 print(place(v4, tcp, ""), place(v4, udp, ""), place(v4, tcp, "", "127.0.0.5"), place(v4, tcp, "127.0.0.7", "127.0.0.5"), place(v6, tcp, "::"))
 one = socket.socket(v4, tcp)
 print(one.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY), one.getsockopt(socket.IPPROTO_TCP, 25),
-      socket.socket(v6, tcp).getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY))
+      socket.socket(v6, tcp).getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY), one.getsockopt(socket.IPPROTO_TCP, socket.TCP_CONGESTION, 5).decode())
 with socket.socket(socket.AF_UNIX) as local:
     local.bind("\\0" + 40 * "n")
     print(len(local.getsockname()))
@@ -124,7 +126,11 @@ def test_M3_a_socket_for_all_interfaces_is_the_loopback_s_or_that_of_ROS_IP_and_
     env = dict(os.environ, LD_PRELOAD=str(ROOT / "navvi_ws/devel/lib/libnavvi_loopback.so"))
     env.pop("ROS_IP", None)
     found = subprocess.check_output(["/usr/bin/python3", "-c", SOCKETS], text=True, env=env)
-    assert found == "127.0.0.1 127.0.0.1 127.0.0.5 127.0.0.7 ::1\n1 8192 1\n41\n"
+    with socket.socket() as usual:
+        control = usual.getsockopt(socket.IPPROTO_TCP, socket.TCP_CONGESTION, 5).decode()
+    if "cubic" in Path("/proc/sys/net/ipv4/tcp_available_congestion_control").read_text():
+        control = "cubic"
+    assert found == f"127.0.0.1 127.0.0.1 127.0.0.5 127.0.0.7 ::1\n1 8192 1 {control}\n41\n"
 
 
 def test_an_outsider_reads_the_octomap_by_its_public_md5(session):

@@ -1,5 +1,6 @@
 """Studies without a session: what comes next, and the journal after crashes."""
 import errno
+import fcntl
 import getpass
 import itertools
 import multiprocessing
@@ -271,9 +272,12 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
     assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
 
 
-def test_who_withdraws_is_erased_also_when_that_was_broken_off(work):
+def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, monkeypatch):
     rest(work())
     work.study.journal.append("withdraw", participant="sub-01", data="delete")
+    with monkeypatch.context() as disk, pytest.raises(StudyError, match="sub-01 cannot be deleted"):
+        disk.setattr(shutil, "rmtree", lambda *given, **options: None)
+        study.Study(work.study.plan)
     again = [study.Study(work.study.plan) for _ in range(2)][-1]  # after a crash, any command, and the next
     assert not again.home("sub-01").exists()
     assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"], "once"
@@ -370,12 +374,48 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
         file.write(b'{"seq": 4, "ty')
     assert [row["number"] for row in journal.Journal(kept.path).rows()] == [0, 1, 2]
     assert (tmp_path / "journal.torn").read_bytes() == b'{"seq": 4, "ty\n'
-    assert kept.append("done", number=3)["seq"] == 4
+    assert kept.append("done", number=3)["seq"] == 4 and len(journal.Journal(kept.path).rows()) == 4
     lines = kept.path.read_text().splitlines(keepends=True)
-    for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]]):
+    for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]], ["{}\n"]):
         kept.path.write_text("".join(changed))
         with pytest.raises(StudyError, match="damaged, changed"):
             journal.Journal(kept.path).rows()
+    kept.path.write_bytes(b"{")
+    (tmp_path / "journal.torn").unlink()
+    (tmp_path / "journal.torn").mkdir()
+    with pytest.raises(StudyError, match="unfinished row, which cannot be set aside: Is a directory"):
+        journal.Journal(kept.path).rows()
+
+
+def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, monkeypatch):
+    synced, real = [], os.fsync
+
+    def fsync(file):
+        path = os.readlink(f"/proc/self/fd/{file}")
+        synced.append(os.path.basename(path))
+        assert os.path.getsize(path), "the bytes have reached the file"
+        if path.endswith(".jsonl"):
+            with open(path, "rb") as other, pytest.raises(BlockingIOError):  # no other program writes meanwhile
+                fcntl.flock(other, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        real(file)
+    monkeypatch.setattr(os, "fsync", fsync)
+    kept, notes = journal.Journal(tmp_path / "one/home/journal.jsonl"), tmp_path / "two/home/notes.jsonl"
+    files = len(os.listdir("/proc/self/fd"))
+    for write, wanted in ((lambda: kept.append("done"), ["home", "journal.jsonl"]), (lambda: kept.append("done"), ["journal.jsonl"]),
+                          (lambda: (kept.path.open("ab").write(b"torn"), kept.rows()), ["journal.torn", "journal.jsonl"]),
+                          (lambda: journal.append_line(notes, {}), ["home", "notes.jsonl"]), (lambda: journal.append_line(notes, {}), ["notes.jsonl"]),
+                          (lambda: study.write_safely(tmp_path / "three/home/key", "{}"), ["key.new", "home"])):
+        write()
+        assert synced == wanted
+        synced.clear()
+    assert len(os.listdir("/proc/self/fd")) == files
+    with pytest.raises(StudyError, match="line.jsonl cannot be written: File exists"):
+        journal.append_line(notes / "line.jsonl", {})
+    with pytest.raises(StudyError, match="key cannot be written: .* give the same command again"):
+        study.write_safely(notes / "key", "{}")
+    kept.path.write_bytes(b"")
+    with pytest.raises(StudyError, match="has become shorter"):
+        kept.rows()
 
 
 def test_D4_a_row_that_may_not_last_is_not_read(tmp_path, monkeypatch):

@@ -20,7 +20,7 @@ constexpr double kBrush = 0.03;    // m; a thing that is missed by less is touch
 constexpr double kRound = 0.3;     // m, radius of a thing behind its nearest point
 constexpr double kStep = 0.05;     // s
 constexpr double kForesees = 1.5;  // s
-constexpr double kStays = 3.0;     // s; what moves and would hit a robot that stands, cannot be avoided
+constexpr double kStays = 3.0;     // s; what would hit a robot that stands cannot be avoided
 constexpr double kMemory = 0.4;    // s, of a track
 constexpr double kShort = 0.2;     // s; a velocity is not known from less
 constexpr double kJump = 0.3;      // m; another part of the thing is nearest now
@@ -53,13 +53,16 @@ Eigen::Vector2d Assistance::Seen::velocity() const {
 }
 
 void Assistance::drive(double time) {
-  const Pose2 moved = driven(velocity_, std::clamp(time - time_, 0.0, kStale));
+  if (time < time_) {
+    seen_.clear();
+    seen_at_.reset();
+  }
+  const Pose2 moved = driven(velocity_, time - time_);
   pose_ = {pose_.to_parent(moved.position), pose_.yaw + moved.yaw};
   time_ = time;
 }
 
 void Assistance::see(const std::vector<NearThing>& nearby, double time) {
-  if (!on_) return;
   drive(time);
   seen_at_ = time;
   std::map<std::uint32_t, Seen> seen;
@@ -69,7 +72,8 @@ void Assistance::see(const std::vector<NearThing>& nearby, double time) {
     if (!track.empty() && (track.back().second - point).norm() > kJump) track.clear();
     track.emplace_back(time, point);
     while (time - track.front().first > kMemory) track.erase(track.begin());
-    seen[thing.id] = {thing, std::move(track)};
+    seen[thing.id] = {thing, Eigen::Rotation2Dd(pose_.yaw) * thing.nearest.normalized(),
+                      std::move(track)};
   }
   seen_ = std::move(seen);
 }
@@ -79,8 +83,8 @@ double Assistance::until_touched(const Seen& seen, const Velocity& robot, double
   const double behind = is_plane ? 0.0 : kRound;
   const double reach = seen.thing.nearest.norm() - seen.thing.gap + kBrush + behind;
   const Eigen::Vector2d nearest = pose_.to_local(seen.track.back().second);
-  const Eigen::Vector2d velocity = Eigen::Rotation2Dd(-pose_.yaw) * seen.velocity();
-  const Eigen::Vector2d way = nearest.normalized();
+  const Eigen::Rotation2Dd turned(-pose_.yaw);
+  const Eigen::Vector2d velocity = turned * seen.velocity(), way = turned * seen.way;
   const Eigen::Vector2d point = nearest + behind * way;
   double before = kNever;
   for (double time = 0.0; time <= horizon; time += kStep) {
@@ -119,7 +123,7 @@ std::optional<Velocity> Assistance::way_round(const Velocity& wanted) const {
   for (const double share : kSpeeds) {
     for (double bend = 0.0; bend <= kMostBend + 1e-9; bend += kBend) {
       for (const double side : {first, -first}) {
-        if (side * wanted.angular < -kStraight && bend > 0.0) continue;
+        if (side * wanted.angular < -kStraight) continue;
         const Velocity other{share * wanted.linear, wanted.angular + side * bend};
         if (is_free(other)) return other;
       }
@@ -138,12 +142,10 @@ Velocity Assistance::assist(const Velocity& wanted, double time) {
   if (!on_) return wanted;
   drive(time);
   velocity_ = wanted;
-  if (wanted.linear != 0.0) {
-    if (seen_at_ && time - *seen_at_ <= kStale)
-      velocity_ = kept_off(wanted);
-    else
-      velocity_.linear *= kBlind;
-  }
+  if (seen_at_ && time - *seen_at_ <= kStale)
+    velocity_ = kept_off(wanted);
+  else
+    velocity_.linear *= kBlind;
   const double turn = velocity_.angular - wanted.angular;
   tell(turn > 0.0   ? Does::steers_left
        : turn < 0.0 ? Does::steers_right

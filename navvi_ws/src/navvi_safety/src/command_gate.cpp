@@ -35,12 +35,11 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
         "and announced; empty: any node may drive, one at a time");
 }
 
-bool CommandGate::admit(const std::string& node, unsigned link, const Instant& now) {
+bool CommandGate::admit(const std::string& node, unsigned link) {
   if (!config_.driver.empty() && node != config_.driver) {
     intruder_ = node;
     return false;
   }
-  expire(now);
   if (link_ && link != *link_) {
     stop(Reason::driver_changed);
     if (link < latest_link_) intruder_ = node;  // the later link has not replaced this one
@@ -93,7 +92,6 @@ navvi_types::LinkState CommandGate::link_state(std::int64_t stamp) const {
 
 void CommandGate::stop(Reason reason) {
   last_valid_.reset();
-  neutral_since_.reset();
   if (state_ == State::waiting) return;
   state_ = State::stopped;
   reason_ = reason;
@@ -110,7 +108,6 @@ navvi_types::Velocity CommandGate::update(const Instant& now) {
 
 navvi_types::Velocity CommandGate::held_or_driven(const Instant& now) {
   expire(now);
-  if (!last_valid_) return {};
   if (state_ != State::running) {
     const bool held = neutral_since_ && now.wall - neutral_since_->wall >= config_.kNeutralHold &&
                       now.sim - neutral_since_->sim >= config_.kNeutralHold;
@@ -124,7 +121,6 @@ navvi_types::Velocity CommandGate::held_or_driven(const Instant& now) {
 void CommandGate::expire(const Instant& now) {
   if (last_valid_ && younger_than(config_.timeout, *last_valid_, now)) return;
   const bool back = last_valid_ && now.sim < last_valid_->sim;
-  last_valid_.reset();
   neutral_since_.reset();
   if (state_ == State::running)
     stop(back               ? Reason::clock_jumped

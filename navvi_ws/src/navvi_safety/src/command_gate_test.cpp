@@ -32,7 +32,7 @@ class Gate : public testing::Test {
   /// As hold(), by a connection of the driver.
   void send(unsigned link, const Velocity& command, double seconds = kStep) {
     beat(seconds, [&] {
-      ASSERT_TRUE(gate_.admit("/feedback_node", link, now_));
+      ASSERT_TRUE(gate_.admit("/feedback_node", link));
       gate_.receive({command}, now_);
     });
   }
@@ -365,13 +365,13 @@ TEST(CommandGate, admits_the_one_driver_and_names_any_other) {
   CommandGateConfig config;
   config.driver = "/feedback_node";
   CommandGate gate{config};
-  EXPECT_TRUE(gate.admit("/feedback_node", 1, {}));
+  EXPECT_TRUE(gate.admit("/feedback_node", 1));
   EXPECT_EQ(gate.drive_state(0).intruder, "");
-  EXPECT_FALSE(gate.admit("/teleop", 2, {}));
+  EXPECT_FALSE(gate.admit("/teleop", 2));
   EXPECT_EQ(gate.drive_state(0).intruder, "/teleop");
-  EXPECT_TRUE(gate.admit("/feedback_node", 1, {}));
+  EXPECT_TRUE(gate.admit("/feedback_node", 1));
   EXPECT_EQ(gate.reason(), CommandGate::Reason::none) << "an ignored node stops nothing";
-  EXPECT_TRUE(CommandGate(CommandGateConfig{}).admit("/teleop", 1, {})) << "no driver is named";
+  EXPECT_TRUE(CommandGate(CommandGateConfig{}).admit("/teleop", 1)) << "no driver is named";
 }
 
 TEST_F(Gate, drives_no_faster_than_zones_allow_and_slowly_where_they_are_silent) {

@@ -27,7 +27,7 @@ unsigned CommandInput::link_of(const Header& header) {
 void CommandInput::receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& event,
                            const Instant& now) {
   const std::string& node = event.getPublisherName();
-  if (!gate_.admit(node, link_of(event.getConnectionHeaderPtr()), now)) {
+  if (!gate_.admit(node, link_of(event.getConnectionHeaderPtr()))) {
     ROS_WARN_THROTTLE(5.0,
                       "navvi/command: commands of %s are ignored; the parameter driver names the "
                       "node that may drive",

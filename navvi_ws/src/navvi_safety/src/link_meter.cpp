@@ -22,7 +22,7 @@ void LinkMeter::add(double age, std::uint32_t seq, double time) {
 }
 
 LinkMeter::Late LinkMeter::lateness(double age) const {
-  if (arrivals_.empty() || age <= kSlow) return Late::no;
+  if (arrivals_.empty()) return Late::no;
   const double later = age - percentile(0.5);
   return later > kTooLate ? Late::too_late : later > kSlow ? Late::slow : Late::no;
 }

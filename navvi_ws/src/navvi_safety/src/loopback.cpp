@@ -38,16 +38,15 @@ Function next(const char* name) {
 
 }  // namespace
 
-/// What it accepts later inherits the options.
+/// What it accepts later inherits the options. A socket that is not of TCP rejects them.
 extern "C" int socket(int domain, int type, int protocol) noexcept {
   static const auto make = next<int (*)(int, int, int)>("socket");
   const int made = make(domain, type, protocol);
   const int on = 1;
-  const bool internet = domain == AF_INET || domain == AF_INET6;
-  if (made >= 0 && internet && (type & 0xf) == SOCK_STREAM) {
+  if (made >= 0) {
     setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
     setsockopt(made, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsent, sizeof(kUnsent));
-    setsockopt(made, IPPROTO_TCP, TCP_CONGESTION, kCongestion, sizeof(kCongestion) - 1);
+    setsockopt(made, IPPROTO_TCP, TCP_CONGESTION, kCongestion, sizeof(kCongestion));
   }
   return made;
 }

@@ -33,6 +33,7 @@ class Assistance {
   /// A thing, and where its nearest point was of late.
   struct Seen {
     navvi_types::NearThing thing;
+    Eigen::Vector2d way{0, 0};  ///< unit vector to its nearest point, in the frame of pose_
     std::vector<std::pair<double, Eigen::Vector2d>> track = {};  ///< s and m, in the frame of pose_
     [[nodiscard]] Eigen::Vector2d velocity() const;              ///< m/s, in the frame of pose_
   };

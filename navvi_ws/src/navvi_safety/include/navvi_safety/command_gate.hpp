@@ -63,7 +63,7 @@ class CommandGate {
   /// drive_state() from then on. \param link  number of the connection that its command came by,
   /// higher for a later one. Another link than that of the command before stops the wheels; while
   /// two links of one name send commands they stand still, and the name is an intruder's, too.
-  [[nodiscard]] bool admit(const std::string& node, unsigned link, const Instant& now);
+  [[nodiscard]] bool admit(const std::string& node, unsigned link);
 
   /// Takes a command as received. One that is malformed, not finite, `absurd_factor` beyond the
   /// limits or stamped `ahead` is rejected whole and extends nothing, as does one that comes too

@@ -88,7 +88,7 @@ class Journal:
         return row
 
     def _set_aside(self, torn):
-        with open(self.path.with_suffix(".torn"), "ab") as aside:
+        with open(self.path.with_suffix(".torn"), "ab", buffering=0) as aside:
             aside.write(torn + b"\n")
             os.fsync(aside.fileno())
 

@@ -52,10 +52,12 @@ using Recovering = Folder;
 TEST_F(AJournal, reads_back_what_was_appended) {
   std::vector<Row> rows;
   {
+    errno = EIO;  // of a call before
     Journal journal = open();
     ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
     ASSERT_TRUE(journal.append("PROGRESS", Fields().set("x", 1.5), 3, 4, Durability::relaxed));
     rows = journal.rows();
+    EXPECT_EQ(fs::file_size(path_ / "journal.reserve"), std::uintmax_t{1} << 20);
   }
   const auto contents = read_journal(bytes());
   EXPECT_EQ(contents.damage, "");
@@ -66,6 +68,8 @@ TEST_F(AJournal, reads_back_what_was_appended) {
 TEST_F(AJournal, is_never_opened_twice) {
   { Journal journal = open(); }
   EXPECT_THROW(open(), std::runtime_error);
+  fs::rename(journal(), path_ / "journal.reserve");
+  EXPECT_THROW(open(), std::runtime_error) << "its reserve is another's";
 }
 
 TEST_F(AJournal, of_a_folder_that_is_not_there_or_full_is_refused) {
@@ -126,6 +130,7 @@ TEST_F(AJournal, is_on_the_disk_with_its_folders_before_a_trial_begins) {
   std::size_t fails = all.size();
   calls_.fdatasync = calls_.fsync = [&](int file) {
     synced.push_back(fs::read_symlink("/proc/self/fd/" + std::to_string(file)));
+    errno = EIO;
     return synced.size() - 1 == fails ? -1 : 0;
   };
   (void)open();
@@ -137,11 +142,14 @@ TEST_F(AJournal, is_on_the_disk_with_its_folders_before_a_trial_begins) {
   }
 }
 
-TEST_F(AJournal, that_lacks_a_row_is_damaged_there) {
+TEST_F(AJournal, that_lacks_a_row_or_has_one_of_another_trial_is_damaged_there) {
   std::string whole = finished();
   const auto second = whole.find("trial-1,2,");
   whole.erase(second, whole.find('\n', second) + 1 - second);
   EXPECT_EQ(read_journal(whole).rows.size(), 1u);
+  EXPECT_EQ(read_journal(whole).damage, "the journal is damaged at row 2");
+  whole.resize(second);
+  whole += format_row({"trial-2", 2, 200, 2, "COLLISION", Fields()});
   EXPECT_EQ(read_journal(whole).damage, "the journal is damaged at row 2");
 }
 
@@ -157,20 +165,23 @@ TEST_F(AJournal, L3_is_broken_for_good_after_a_failed_sync) {
   Journal journal = open();
   ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
   fail = true;
+  const int before = asked + 1;
+  EXPECT_TRUE(journal.append("PROGRESS", Fields(), 2, 3, Durability::relaxed));
   EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
+  EXPECT_EQ(journal.problem(), navvi_files::failure("write the journal", EIO));
   fail = false;
-  const int before = asked;
   EXPECT_FALSE(journal.append("COLLISION", Fields(), 5, 6, Durability::essential));
   EXPECT_EQ(asked, before) << "a failed sync is never asked again";
   EXPECT_TRUE(journal.broken());
-  EXPECT_EQ(journal.rows().size(), 1u);
+  EXPECT_EQ(journal.rows().size(), 2u);
 }
 
 TEST_F(AJournal, L1_on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
-  bool full = false;
+  bool full = false, has_room = true;
+  int error = ENOSPC;
   calls_.write = [&](int file, const void* data, std::size_t size) -> ssize_t {
-    if (full && fs::exists(path_ / "journal.reserve")) {
-      errno = ENOSPC;
+    if (full && (fs::exists(path_ / "journal.reserve") || !has_room)) {
+      errno = error;
       return -1;
     }
     return ::write(file, data, size);
@@ -181,6 +192,19 @@ TEST_F(AJournal, L1_on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
   EXPECT_TRUE(journal.full());
   EXPECT_FALSE(journal.broken());
   EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
+  has_room = false;
+  EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
+  error = EIO;
+  full = false;
+  fs::remove(this->journal());
+  {
+    Journal other = open();
+    full = true;
+    EXPECT_FALSE(other.append("COLLISION", Fields(), 3, 4, Durability::essential));
+    EXPECT_FALSE(other.full()) << "the reserve is for a full disk";
+  }
+  fs::remove(this->journal());
+  EXPECT_THROW(open(), std::runtime_error) << "no header";
 }
 
 TEST_F(AJournal, knows_that_the_disk_is_full_before_a_row_does_not_fit) {
@@ -251,8 +275,50 @@ TEST_F(Recovering, calls_a_trial_with_damage_in_the_middle_invalid) {
   put(whole);
   const Recovery recovery = recover(path_);
   EXPECT_EQ(recovery.rows.back().fields.get("result"), "invalid");
+  EXPECT_NE(recovery.report.find("An open trial was closed as invalid"), std::string::npos);
   EXPECT_TRUE(fs::exists(path_ / "journal.torn")) << "nothing is deleted";
   EXPECT_FALSE(recover(path_).changed);
+}
+
+TEST_F(Recovering, calls_a_trial_with_damage_behind_its_end_invalid_and_one_without_rows_nothing) {
+  const std::string header = std::string(kJournalHeader) + "\n";
+  const std::string whole = finished();
+  put(whole + "?\n");
+  EXPECT_EQ(recover(path_).rows.back().fields.get("reason"), "journal_damaged");
+  EXPECT_FALSE(recover(path_).changed);
+  put(header + "?\n");
+  EXPECT_TRUE(recover(path_).rows.empty());
+  EXPECT_EQ(bytes(), header);
+}
+
+TEST_F(Recovering, calls_an_open_trial_what_its_summary_does) {
+  const std::string whole = finished();
+  put(whole.substr(0, whole.find("trial-1,3,")));
+  const Summary summary = {{"result", "invalid"}, {"reason", "r"}};
+  ASSERT_FALSE(navvi_files::write_atomically(path_ / "summary.csv", summary_csv(summary)));
+  const Recovery recovery = recover(path_);
+  EXPECT_TRUE(recovery.changed);
+  const Fields end = recovery.rows.back().fields;
+  EXPECT_EQ(end.get("result") + " " + end.get("reason"), "invalid r");
+}
+
+TEST_F(Recovering, says_what_it_cannot_read_or_write) {
+  EXPECT_NE(recover(path_).problem, "") << "there is no journal";
+  put(finished().substr(0, 200));
+  const std::string torn = bytes();
+  int calls = 0, fails = -1;
+  calls_.fsync = [&](int file) { return errno = EIO, calls++ == fails ? -1 : ::fsync(file); };
+  EXPECT_EQ(recover(path_, calls_).problem, "");
+  const int all = calls;
+  EXPECT_EQ(all, 4) << "what is torn, its folder, the journal without it, and its end";
+  for (fails = 0; fails < all; ++fails) {
+    put(torn);
+    calls = 0;
+    fs::remove(path_ / "journal.torn");
+    EXPECT_NE(recover(path_, calls_).problem, "") << fails;
+  }
+  fs::resize_file(journal(), std::uintmax_t{1} << 30);
+  EXPECT_NE(recover(path_).problem, "") << "that is no journal";
 }
 
 TEST_F(Recovering, still_calls_it_invalid_if_it_was_itself_cut_short) {
