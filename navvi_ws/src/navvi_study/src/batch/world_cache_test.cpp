@@ -106,6 +106,7 @@ TEST_F(WorldCache, is_shared_by_conditions_that_do_not_shape_the_world) {
 
 TEST_F(WorldCache, lies_in_the_users_cache_folder) {
   ASSERT_EQ(::setenv("XDG_CACHE_HOME", folder_.string().c_str(), 1), 0);
+  EXPECT_FALSE(world_cache(0));
   const auto cache = world_cache(16);
   ASSERT_TRUE(cache);
   cache->keep("key", "bytes");
