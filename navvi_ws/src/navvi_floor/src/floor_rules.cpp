@@ -1,6 +1,7 @@
 #include "floor_rules.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -181,13 +182,17 @@ std::string FloorRules::largest_levels(const Places& places) const {
 }
 
 Places FloorRules::places_in(const NearColumns& columns) const {
-  const Levels& levels = columns.levels();
-  Places out;
+  std::array<int, NearColumns::kMostLevels> counts{};
+  const int levels = columns.levels().high - columns.levels().low;
   columns.for_runs([&](std::size_t count, std::uint64_t bits) {
-    for (int level = levels.low + 1; level + climbing_.headroom <= levels.high; ++level)
-      if (ground_at(bits, level - levels.low) == Ground::floor)
-        out[level] += static_cast<int>(count);
+    for (int level = 1; level + climbing_.headroom <= levels; ++level)
+      if (ground_at(bits, level) == Ground::floor)
+        counts[static_cast<std::size_t>(level)] += static_cast<int>(count);
   });
+  Places out;
+  for (int level = 1; level < levels; ++level)
+    if (const int count = counts[static_cast<std::size_t>(level)]; count > 0)
+      out[columns.levels().low + level] = count;
   return out;
 }
 
