@@ -33,7 +33,7 @@ class WorldCache : public testing::Test {
 
   /// All that is told in a trial of at most 40 s, and its row.
   [[nodiscard]] std::string play(const Cache* cache) const {
-    ClosedLoop loop(config_, NAVVI_PHRASES, cache);
+    ClosedLoop loop(config_, navvi_people::loop::Spoken(NAVVI_PHRASES), cache);
     trial::TrialNodeConfig config;
     config.limit = 40.0;
     LoopTrial trial(config, loop, NAVVI_PHRASES);
