@@ -1,7 +1,6 @@
 #include "floor_rules.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -140,9 +139,8 @@ std::optional<Levels> FloorRules::levels() const {
   const std::optional<double> height = expected_height();
   if (!height || config_.climb > 0.0) return std::nullopt;
   const double tolerance = kFloorTolerance / voxel_ + 1.0;
-  const Levels out{static_cast<int>(std::floor(*height / voxel_ - tolerance)),
-                   static_cast<int>(std::ceil(*height / voxel_ + tolerance)) + climbing_.headroom};
-  return out.high - out.low <= NearColumns::kMostLevels ? std::optional(out) : std::nullopt;
+  return Levels{static_cast<int>(std::floor(*height / voxel_ - tolerance)),
+                static_cast<int>(std::ceil(*height / voxel_ + tolerance)) + climbing_.headroom};
 }
 
 std::optional<int> FloorRules::expected_level(const Places& places) const {
@@ -181,50 +179,17 @@ std::string FloorRules::largest_levels(const Places& places) const {
   return out;
 }
 
-Places FloorRules::places_in(const NearColumns& columns) const {
-  std::array<int, NearColumns::kMostLevels> counts{};
-  const int levels = columns.levels().high - columns.levels().low;
-  columns.for_runs([&](std::size_t count, std::uint64_t bits) {
-    for (int level = 1; level + climbing_.headroom <= levels; ++level)
-      if (ground_at(bits, level) == Ground::floor)
-        counts[static_cast<std::size_t>(level)] += static_cast<int>(count);
-  });
-  Places out;
-  for (int level = 1; level < levels; ++level)
-    if (const int count = counts[static_cast<std::size_t>(level)]; count > 0)
-      out[columns.levels().low + level] = count;
-  return out;
-}
-
-Ground FloorRules::ground_at(std::uint64_t bits, int level) const {
-  const std::uint64_t room = ~std::uint64_t{0} >> (NearColumns::kMostLevels - climbing_.headroom);
-  if ((bits >> level & room) != 0) return Ground::obstacle;
-  return (bits >> (level - 1) & 1U) != 0 ? Ground::floor : Ground::none;
-}
-
-GroundGrid FloorRules::grid_over(const Area& columns) const {
-  return {voxel_,
-          {columns.low.x * voxel_, columns.low.y * voxel_},
-          columns.columns(),
-          columns.rows(),
-          {}};
-}
-
 FloorRules::Shown FloorRules::ground_of(const HeightField& field, int level) const {
   Climbing climbing = climbing_;
   climbing.floor_top = level - field.low_z();
-  Shown out{grid_over(field.columns()), {}};
-  out.grid.ground = on_one_level(field, climbing.floor_top, climbing.headroom, threads_);
+  const Cell low = field.columns().low;
+  Shown out{{voxel_,
+             {low.x * voxel_, low.y * voxel_},
+             field.width(),
+             field.height(),
+             on_one_level(field, climbing.floor_top, climbing.headroom, threads_)},
+            {}};
   if (config_.climb > 0.0) out.climbed = spread_floor(out.grid.ground, field, climbing);
-  return out;
-}
-
-GroundGrid FloorRules::ground_of(const NearColumns& columns, int level) const {
-  GroundGrid out = grid_over(columns.columns());
-  out.ground.reserve(static_cast<std::size_t>(out.columns) * static_cast<std::size_t>(out.rows));
-  columns.for_runs([&](std::size_t count, std::uint64_t bits) {
-    out.ground.insert(out.ground.end(), count, ground_at(bits, level - columns.levels().low));
-  });
   return out;
 }
 

@@ -7,7 +7,6 @@
 
 #include "floor_spread.hpp"
 #include "height_field.hpp"
-#include "near_columns.hpp"
 #include "navvi_floor/resample.hpp"
 #include "navvi_floor/survey.hpp"
 
@@ -26,9 +25,7 @@ class FloorRules {
 
   /// Adds the columns of a field, or takes them away. \param sign  1 or -1
   void count(const HeightField& field, int sign, Places& places) const;
-  [[nodiscard]] Places places_in(const NearColumns& columns) const;
-  /// Those by which the floor is told and judged, where its height is about known and they are few;
-  /// nullopt: any.
+  /// Those by which the floor is told and judged, where its height is about known; nullopt: any.
   [[nodiscard]] std::optional<Levels> levels() const;
   /// The floor's, of those; nullopt: there is none, or any of the map may be the floor's.
   [[nodiscard]] std::optional<int> expected_level(const Places& places) const;
@@ -47,7 +44,6 @@ class FloorRules {
   };
   /// The ground of a field if the floor lies at `level`.
   [[nodiscard]] Shown ground_of(const HeightField& field, int level) const;
-  [[nodiscard]] GroundGrid ground_of(const NearColumns& columns, int level) const;
 
   [[nodiscard]] double voxel() const { return voxel_; }  ///< m
   [[nodiscard]] int threads() const { return threads_; }
@@ -56,10 +52,6 @@ class FloorRules {
 
  private:
   [[nodiscard]] std::optional<double> expected_height() const;  // m
-  /// \param bits  of a column, one a level
-  [[nodiscard]] Ground ground_at(std::uint64_t bits, int level) const;
-  /// Without its ground.
-  [[nodiscard]] GroundGrid grid_over(const Area& columns) const;
 
   SurveyConfig config_;
   double voxel_;

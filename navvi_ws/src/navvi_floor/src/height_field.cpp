@@ -32,7 +32,9 @@ std::string rounded_up(double edge) {
 
 }  // namespace
 
-HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<Area>& wanted) {
+HeightField::HeightField(const Voxels& voxels, int threads, const std::optional<Area>& wanted,
+                         const std::optional<Levels>& levels)
+    : levels_(levels) {
   measure(voxels, wanted);
   if (!error_.empty()) return;
   const auto width = static_cast<std::size_t>(size_[0]);
@@ -142,13 +144,25 @@ void HeightField::measure(const Voxels& voxels, const std::optional<Area>& wante
 
 /// \param first_row, last_row  rows of columns to fill, the last excluded
 void HeightField::add(const Octet& octet, int first_row, int last_row, std::vector<Lower>& lower) {
+  const int side = 1 << octet.level;
   const int first = octet.y - kMapCenter - low_[1];
-  if (first >= last_row || first + (2 << octet.level) <= first_row) return;
-  for_boxes(octet, [&](const VoxelBox& box) { add(box, first_row, last_row, lower); });
+  if (first >= last_row || first + 2 * side <= first_row) return;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const bool in_low = ((octet.mask >> quarter) & 1) != 0;
+    const bool in_high = ((octet.mask >> (quarter + 4)) & 1) != 0;
+    if (!in_low && !in_high) continue;
+    const int x = octet.x + ((quarter & 1) != 0 ? side : 0);
+    const int y = octet.y + ((quarter & 2) != 0 ? side : 0);
+    const int bottom = octet.z + (in_low ? 0 : side), top = octet.z + (in_high ? 2 : 1) * side;
+    add({{x, y, bottom}, {x + side, y + side, top}}, first_row, last_row, lower);
+  }
 }
 
 void HeightField::add(const VoxelBox& box, int first_row, int last_row,
                       std::vector<Lower>& lower) {
+  if (levels_ && (box.high[2] <= levels_->low + kMapCenter ||
+                  box.low[2] >= levels_->high + kMapCenter))
+    return;
   const auto level = [&](int z) { return static_cast<std::uint16_t>(z - kMapCenter - low_[2]); };
   const Packed span{level(box.low[2]), level(box.high[2])};
   const int x = kMapCenter + low_[0], y = kMapCenter + low_[1];

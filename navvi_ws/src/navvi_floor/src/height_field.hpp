@@ -23,21 +23,6 @@ struct Levels {
   int high = 0;  ///< one beyond
 };
 
-/// Calls visit(box) for each quarter of an octet, seen from above, that is not free.
-template <typename Visit>
-void for_boxes(const Octet& octet, const Visit& visit) {
-  const int side = 1 << octet.level;
-  for (int quarter = 0; quarter < 4; ++quarter) {
-    const bool in_low = ((octet.mask >> quarter) & 1) != 0;
-    const bool in_high = ((octet.mask >> (quarter + 4)) & 1) != 0;
-    if (!in_low && !in_high) continue;
-    const int x = octet.x + ((quarter & 1) != 0 ? side : 0);
-    const int y = octet.y + ((quarter & 2) != 0 ? side : 0);
-    const int bottom = octet.z + (in_low ? 0 : side), top = octet.z + (in_high ? 2 : 1) * side;
-    visit(VoxelBox{{x, y, bottom}, {x + side, y + side, top}});
-  }
-}
-
 /// A map's occupied voxels as columns of spans, as in Recast's height field, but written whole
 /// leaves at a time and with one entry a run. Most columns are one run, so the highest span of each
 /// is in a grid, and the few below in a list.
@@ -56,8 +41,10 @@ class HeightField {
 
   /// \param threads  that may share the work
   /// \param wanted  columns, in voxels from the map's origin; by default all that voxels take up
+  /// \param levels  what lies beyond them may be left out
   explicit HeightField(const Voxels& voxels, int threads = 1,
-                       const std::optional<Area>& wanted = std::nullopt);
+                       const std::optional<Area>& wanted = std::nullopt,
+                       const std::optional<Levels>& levels = std::nullopt);
   HeightField(const HeightField&) = delete;
   HeightField& operator=(const HeightField&) = delete;
 
@@ -131,6 +118,7 @@ class HeightField {
   Extent extent_;
   int low_[3] = {0, 0, 0};
   int size_[3] = {0, 0, 0};
+  std::optional<Levels> levels_;  // that were taken, if not all
   std::vector<Packed> highest_;
   /// Of each band of rows, by column, then downwards; ends with one of no column.
   std::vector<std::vector<Lower>> lower_;

@@ -58,20 +58,11 @@ SeenGround seen_in(const HeightField& field, const FloorRules& rules, SurveyReco
 }
 
 SeenGround seen_in(const Voxels& voxels, const FloorRules& rules) {
-  const HeightField none(voxels, 1, Area{});  // of no columns: what the map takes up, or its error
-  const Area all = columns_of(none.extent());
   const std::optional<Levels> levels = rules.levels();
-  if (levels && none.error().empty() && all.columns() > 0) {
-    const NearColumns columns(voxels, *levels, all);
-    SeenGround out{{}, rules.config(), {}, {}};
-    out.record.places = rules.places_in(columns);
-    if (const std::optional<int> level = rules.expected_level(out.record.places)) {
-      out.record.floor_level = *level;
-      out.grid = rules.ground_of(columns, *level);
-      return out;
-    }
-  }
-  return seen_in(HeightField(voxels, rules.threads()), rules);
+  SeenGround out = seen_in(HeightField(voxels, rules.threads(), std::nullopt, levels), rules);
+  if (levels && !rules.expected_level(out.record.places))
+    out = seen_in(HeightField(voxels, rules.threads()), rules);
+  return out;
 }
 
 MapSurvey completed(MapSurvey survey, const FloorRules& rules, const SurveyRecord& record) {
