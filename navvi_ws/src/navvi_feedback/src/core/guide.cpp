@@ -205,8 +205,6 @@ void Guide::Parts::say(const cues::CueQueue::Step& step, const Devices& devices,
   }
 }
 
-Guide::Guide(const GuideConfig& config, const std::filesystem::path& phrases)
-    : Guide(config, cues::Phrases(phrases)) {}
 Guide::Guide(const GuideConfig& config, const cues::Phrases& phrases) {
   cues::Phrases worded = phrases;
   worded.use(config->cues.wording);

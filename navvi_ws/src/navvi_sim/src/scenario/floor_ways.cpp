@@ -80,13 +80,9 @@ int FloorWays::gap2_of(double least) const {
 
 FloorWays::Cells FloorWays::cells_clear_by(double least) const {
   const int gap2 = gap2_of(least);
-  Cells cells(size());
-  std::size_t count = 0;
-  for (std::uint32_t cell = 0; cell < size(); ++cell) {
-    cells[count] = cell;
-    count += gap2_[cell] >= gap2 ? 1U : 0U;
-  }
-  cells.resize(count);
+  Cells cells;
+  for (std::uint32_t cell = 0; cell < size(); ++cell)
+    if (gap2_[cell] >= gap2) cells.push_back(cell);
   return cells;
 }
 

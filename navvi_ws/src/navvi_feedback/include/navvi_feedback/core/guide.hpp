@@ -58,9 +58,7 @@ class GuideConfig {
 /// clock that does not run backwards; places are m, in map.
 class Guide {
  public:
-  /// \param phrases  file of the spoken phrases
-  /// \throws navvi_config::ConfigError if that file or the classes that are felt cannot be used
-  Guide(const GuideConfig& config, const std::filesystem::path& phrases);
+  /// \throws navvi_config::ConfigError if the classes that are felt cannot be used
   Guide(const GuideConfig& config, const cues::Phrases& phrases);
   ~Guide();
 
