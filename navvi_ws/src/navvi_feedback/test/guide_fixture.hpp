@@ -80,7 +80,7 @@ class GuideTest : public testing::Test {
                          [&](const sounds::Play& play) { return play.earcon == earcon; });
   }
 
-  Guide guide_{GuideConfig{}, kEnglish};
+  Guide guide_{GuideConfig{}, cues::Phrases(kEnglish)};
   Devices input_;
   double time_ = 10.0;
   std::vector<Content> told_;

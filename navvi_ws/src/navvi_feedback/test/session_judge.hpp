@@ -59,7 +59,7 @@ class SessionJudge : public Verdict {
   };
 
   explicit SessionJudge(const GuideConfig& config = {})
-      : guide_(config, kEnglish) {
+      : guide_(config, cues::Phrases(kEnglish)) {
     Guidance& guidance = now.guidance;
     guidance.state = Guidance::State::following;
     guidance.goal = guidance.waypoint = {20.0, 0.0};

@@ -196,11 +196,18 @@ void Floor::measure(const Area& square) {
   };
   const auto whole = static_cast<std::uint16_t>(std::ceil(margin_cells * margin_cells - kRounding));
   const bool whole_cells = grow_ == 0;
-  for_each_row<std::uint16_t>(
-      columns, square, reach_cells_, Measure{}, [&](int y, const std::uint16_t* row) {
-        std::copy_n(row, square.columns(), gap2_.own_row(y - origin_.y) + square.low.x - origin_.x);
-        if (whole_cells) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
-      });
+  const auto rough = [&](auto number) {
+    using Number = decltype(number);
+    for_each_row<Number>(columns, square, reach_cells_, Measure{}, [&](int y, const Number* row) {
+      std::copy_n(row, square.columns(), gap2_.own_row(y - origin_.y) + square.low.x - origin_.x);
+      if (whole_cells) keep_open(y, row, is_open(std::max<std::uint16_t>(whole, 1)));
+    });
+  };
+  // The least of numbers with a sign is one step to processors, that of others two.
+  if (2 * Measure{}.squared_gap(reach_cells_ + 1) <= std::numeric_limits<std::int16_t>::max())
+    rough(std::int16_t{0});
+  else
+    rough(std::uint16_t{0});
   if (whole_cells) return;
   const double margin_steps = margin_cells * kStepsPerCellSide;
   const int far = std::max(1, static_cast<int>(std::ceil(margin_steps * margin_steps - kRounding)));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "navvi_floor/parallel.hpp"
+#include "part_survey.hpp"
 
 namespace navvi_floor {
 namespace {
@@ -152,6 +153,13 @@ std::optional<int> FloorRules::floor_level(const Places& places) const {
   const std::optional<int> expected = expected_level(places);
   if (expected || config_.floor_height != kAnyFloor) return expected;
   return lowest_large_level(places);
+}
+
+bool FloorRules::see_the_same(const SeenGround& seen) const {
+  const FloorRules before(seen.how, voxel_);
+  return seen.error.empty() && before.expected_height() == expected_height() &&
+         before.climbing_.headroom == climbing_.headroom && seen.how.climb == config_.climb &&
+         floor_level(seen.record.places) == seen.record.floor_level;
 }
 
 std::string FloorRules::no_floor(const Places& places) const {

@@ -15,6 +15,8 @@ namespace navvi_floor {
 /// Of a map: how many voxels end at each level, from the map's origin, with room for the robot.
 using Places = std::map<int, int>;
 
+struct SeenGround;
+
 /// What columns of voxels show of the floor: the rules of survey_map() for one size of voxels.
 class FloorRules {
  public:
@@ -32,6 +34,9 @@ class FloorRules {
   [[nodiscard]] std::string no_floor(const Places& places) const;  ///< a sentence
   /// The largest levels, such as "z = 0.05 m (12.3 m^2), z = 0.10 m (4.0 m^2)".
   [[nodiscard]] std::string largest_levels(const Places& places) const;
+
+  /// Whether columns show the same by these rules as they once did by others.
+  [[nodiscard]] bool see_the_same(const SeenGround& seen) const;
 
   struct Shown {
     GroundGrid grid;

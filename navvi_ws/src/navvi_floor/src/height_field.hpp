@@ -63,10 +63,6 @@ class HeightField {
   [[nodiscard]] int width() const { return size_[0]; }   ///< columns along x
   [[nodiscard]] int height() const { return size_[1]; }  ///< columns along y
   [[nodiscard]] int levels() const { return size_[2]; }
-  /// Whether all is there that lies on these levels; without any: all of the map.
-  [[nodiscard]] bool has(const std::optional<Levels>& levels) const {
-    return !levels_ || (levels && levels_->low <= levels->low && levels_->high >= levels->high);
-  }
 
   /// Calls visit(span) for each span of a column, the highest first, while it returns true. No two
   /// spans of a column touch. Columns lie row by row.

@@ -39,25 +39,30 @@ std::vector<Leaf> large_leaves(const Voxels& voxels) {
   return out;
 }
 
-MapSurvey survey_all(const HeightField& field, const FloorRules& rules, SurveyRecord& record) {
-  if (!field.error().empty()) return refused(field.error());
-  record.places.clear();
-  rules.count(field, 1, record.places);
-  const std::optional<int> level = rules.floor_level(record.places);
-  if (!level) return refused(rules.no_floor(record.places));
+/// The ground of all columns. \param record  of the map, as far as it is known
+SeenGround seen_in(const HeightField& field, const FloorRules& rules, SurveyRecord record = {}) {
+  SeenGround out{field.error(), rules.config(), std::move(record), {}};
+  if (!out.error.empty()) return out;
+  out.record.places.clear();
+  rules.count(field, 1, out.record.places);
+  const std::optional<int> level = rules.floor_level(out.record.places);
+  if (!level) out.error = rules.no_floor(out.record.places);
+  if (!level) return out;
   FloorRules::Shown shown = rules.ground_of(field, *level);
-  record.extent = field.extent();
-  record.floor_level = *level;
-  record.climbed.assign(shown.grid.ground.size(), false);
-  for (const int column : shown.climbed) record.climbed[static_cast<std::size_t>(column)] = true;
-  return resample(std::move(shown.grid), rules.config());
+  out.record.extent = field.extent();
+  out.record.floor_level = *level;
+  out.record.climbed.assign(shown.grid.ground.size(), false);
+  for (const int at : shown.climbed) out.record.climbed[static_cast<std::size_t>(at)] = true;
+  out.grid = std::move(shown.grid);
+  return out;
 }
 
-/// Those that were measured already, if all these levels are there.
-std::shared_ptr<const HeightField> columns_for(const Voxels& voxels, const FloorRules& rules,
-                                               const std::optional<Levels>& levels) {
-  if (voxels.columns && voxels.columns->has(levels)) return voxels.columns;
-  return std::make_shared<const HeightField>(voxels, rules.threads(), std::nullopt, levels);
+SeenGround seen_in(const Voxels& voxels, const FloorRules& rules) {
+  const std::optional<Levels> levels = rules.levels();
+  SeenGround out = seen_in(HeightField(voxels, rules.threads(), std::nullopt, levels), rules);
+  if (levels && !rules.expected_level(out.record.places))
+    out = seen_in(HeightField(voxels, rules.threads()), rules);
+  return out;
 }
 
 MapSurvey completed(MapSurvey survey, const FloorRules& rules, const SurveyRecord& record) {
@@ -67,22 +72,24 @@ MapSurvey completed(MapSurvey survey, const FloorRules& rules, const SurveyRecor
   return survey;
 }
 
+MapSurvey in_cells(const SeenGround& seen, const FloorRules& rules) {
+  if (!seen.error.empty()) return refused(seen.error);
+  return completed(resample(seen.grid, rules.config()), rules, seen.record);
+}
+
 }  // namespace
 
 MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config) {
   if (!voxels.error.empty()) return refused(voxels.error);
-  SurveyRecord record;
   const FloorRules rules(config, voxels.resolution);
-  const auto columns = columns_for(voxels, rules, rules.levels());
-  MapSurvey out = survey_all(*columns, rules, record);
-  if (!columns->has(std::nullopt) && !rules.expected_level(record.places))
-    out = survey_all(HeightField(voxels, rules.threads()), rules, record);
-  return completed(std::move(out), rules, record);
+  if (voxels.seen && rules.see_the_same(*voxels.seen)) return in_cells(*voxels.seen, rules);
+  return in_cells(seen_in(voxels, rules), rules);
 }
 
-void measure_columns(Voxels& voxels, const SurveyConfig& config) {
-  const FloorRules rules(config, voxels.resolution);
-  if (voxels.error.empty()) voxels.columns = columns_for(voxels, rules, rules.levels());
+void see_ground(Voxels& voxels, const SurveyConfig& config) {
+  if (!voxels.error.empty()) return;
+  voxels.seen = std::make_shared<const SeenGround>(
+      seen_in(voxels, FloorRules(config, voxels.resolution)));
 }
 
 MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config, const SurveyRecord* before,
@@ -124,7 +131,11 @@ MapSurvey survey_map(const MapBytes& bytes, const SurveyConfig& config, const Su
     out = survey_part(changed.value_or(Area{low, low}), rules, *before, *floor, *record);
     if (!out) voxels = read_voxels(bytes);
   }
-  if (!out) out = survey_all(HeightField(voxels, rules.threads()), rules, *record);
+  if (!out) {
+    SeenGround seen = seen_in(HeightField(voxels, rules.threads()), rules, std::move(*record));
+    *record = std::move(seen.record);
+    out = seen.error.empty() ? resample(seen.grid, config) : refused(seen.error);
+  }
   out->record = record;
   return completed(*std::move(out), rules, *record);
 }

@@ -392,17 +392,19 @@ TEST(MapSurvey, is_the_same_from_the_levels_around_the_floor_alone) {
       const double x = at(50), y = at(50), z = at(60);
       world.box(x, y, z, x + 0.05 + at(8), y + 0.05 + at(8), z + 0.05 + at(8));
     }
-    Voxels all = world.voxels(), near = all;
-    all.columns = std::make_shared<const HeightField>(all);
-    SurveyConfig low = climbing(0.0), high = low, elsewhere = low;
+    Voxels near = world.voxels();
+    const std::vector<std::int8_t> all = world.bytes();
+    SurveyConfig low = climbing(0.0), high = low, elsewhere = low, again = low;
     low.floor_height = 0.02;
-    measure_columns(near, low);
-    ASSERT_FALSE(near.columns->has(std::nullopt));
+    see_ground(near, low);
     high.robot_height = 1.5;
     high.stands_at = 0.0;
     elsewhere.stands_at = 9.0;
-    for (const SurveyConfig& config : {low, high, elsewhere}) {
-      const MapSurvey wanted = survey_map(all, config), got = survey_map(near, config);
+    again.stands_at = 0.02;
+    again.cell_size = 0.1;
+    for (const SurveyConfig& config : {low, high, elsewhere, again}) {
+      const MapSurvey wanted = survey_map({all.data(), all.size(), true, "OcTree", 0.05}, config);
+      const MapSurvey got = survey_map(near, config);
       ASSERT_EQ(got.error, "");
       ASSERT_EQ(got.floor_height, wanted.floor_height);
       ASSERT_TRUE(got.ground == wanted.ground) << "round " << round;

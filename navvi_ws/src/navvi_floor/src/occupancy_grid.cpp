@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "navvi_floor/octomap_reader.hpp"
 #include "navvi_floor/resample.hpp"
@@ -87,9 +86,9 @@ MapSurvey read_grid(const OccupancyGrid& grid, const SurveyConfig& config) {
   GroundGrid ground{grid.resolution, grid.origin, grid.width, grid.height, {}};
   ground.ground.reserve(grid.cells.size());
   for (const std::int8_t cell : grid.cells) ground.ground.push_back(ground_of(cell));
-  if (std::abs(grid.yaw) < kStraight) return resample(std::move(ground), config);
+  if (std::abs(grid.yaw) < kStraight) return resample(ground, config);
   std::optional<GroundGrid> along_map = straight(ground, grid.yaw);
-  if (along_map) return resample(std::move(*along_map), config);
+  if (along_map) return resample(*along_map, config);
   refused.error = "the occupancy grid is turned, and has more than " + millions(kMaxCells) +
                   " cells along the axes of map";
   return refused;

@@ -112,7 +112,7 @@ class PartSurvey {
       const Area wider = widened(part, all_, climbed_with(climbed), edge_);
       if (wider == part) {
         record_.climbed = climbed_within(part, climbed);
-        return with(std::move(shown.grid), part);
+        return with(shown.grid, part);
       }
       part = wider;
     }
@@ -170,7 +170,7 @@ class PartSurvey {
     return out;
   }
   /// The floor before, with this ground in `part`.
-  [[nodiscard]] MapSurvey with(GroundGrid ground, const Area& part) const {
+  [[nodiscard]] MapSurvey with(const GroundGrid& ground, const Area& part) const {
     SurveyConfig same_cells = rules_.config();
     same_cells.cell_size = floor_.cell_size();
     MapSurvey out;
@@ -180,7 +180,7 @@ class PartSurvey {
     out.columns = floor_.columns();
     out.rows = floor_.rows();
     out.ground = floor_.all_ground();
-    put(resample(std::move(ground), same_cells), part, rules_.voxel(), out);
+    put(resample(ground, same_cells), part, rules_.voxel(), out);
     return out;
   }
 

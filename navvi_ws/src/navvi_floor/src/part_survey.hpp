@@ -28,6 +28,14 @@ struct SurveyRecord {
   std::vector<bool> climbed;  // columns of the extent, row by row: floor that was spread to
 };
 
+/// The ground that columns of voxels show, not in cells yet.
+struct SeenGround {
+  std::string error;  // a sentence if there is none
+  SurveyConfig how;
+  SurveyRecord record;
+  GroundGrid grid;
+};
+
 /// Columns of a cube.
 [[nodiscard]] inline Area columns_of(int x, int y, int side) {
   const Cell low{x - kMapCenter, y - kMapCenter};

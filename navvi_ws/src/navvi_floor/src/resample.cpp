@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace navvi_floor {
 namespace {
@@ -69,7 +68,7 @@ double cell_that_keeps_ways_open(const GroundGrid& grid, double margin) {
 
 }  // namespace
 
-MapSurvey resample(GroundGrid grid, const SurveyConfig& how) {
+MapSurvey resample(const GroundGrid& grid, const SurveyConfig& how) {
   double cell_size =
       how.cell_size > 0.0 ? how.cell_size : cell_that_keeps_ways_open(grid, how.margin);
   const double squares = static_cast<double>(grid.columns) * grid.rows;

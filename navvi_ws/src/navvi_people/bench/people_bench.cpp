@@ -46,7 +46,7 @@ SimulatedOperatorConfig person(const std::string& type, int seed) {
 class Rig {
  public:
   explicit Rig(const SimulatedOperatorConfig& config, double late = 0.0)
-      : person_(config, phrases(), 1),
+      : person_(config, people::Listener(phrases()), 1),
         hands_(static_cast<std::size_t>(std::lround(late / kStep)) + 1) {}
 
   void step() {
@@ -215,7 +215,7 @@ Ways drive(const std::string& type, const std::vector<std::string>& words) {
     set.insert(set.end(), {"sim/world:=easy", "sim/seed:=" + std::to_string(seed),
                            "person/type:=" + type, "person/seed:=" + std::to_string(seed)});
     navvi_config::read(config, navvi_config::read_words(set), "bench");
-    loop::ClosedLoop trial(config, phrases());
+    loop::ClosedLoop trial(config, loop::Spoken(phrases()));
     Leavings left;
     double offset = 0.0;
     int guidances = 0;

@@ -33,6 +33,7 @@ namespace {
 using batch::LoopTrial;
 using navvi_config::ConfigError;
 using navvi_people::loop::ClosedLoop;
+using navvi_people::loop::Spoken;
 using record::Figure;
 
 constexpr std::size_t kMostTrials = 100000;
@@ -177,10 +178,10 @@ void print_trace(const record::Trial& trial, const Span& span) {
   std::fflush(stdout);
 }
 
-record::Trial play(const BenchConfig& config, const std::string& phrases,
+record::Trial play(const BenchConfig& config, const Spoken& spoken,
                    const navvi_files::Cache* cache, const std::filesystem::path& folder) {
-  ClosedLoop loop(config.loop, phrases, cache);
-  LoopTrial trial(config.trial, loop, phrases);
+  ClosedLoop loop(config.loop, spoken, cache);
+  LoopTrial trial(config.trial, loop, spoken.file);
   const auto utc = std::chrono::system_clock::now().time_since_epoch();
   if (!folder.empty())
     trial.keep(folder, std::chrono::duration_cast<std::chrono::nanoseconds>(utc).count());
@@ -190,17 +191,17 @@ record::Trial play(const BenchConfig& config, const std::string& phrases,
   return trial.finish();
 }
 
-record::Fields run_trial(BenchConfig config, const std::string& phrases,
+record::Fields run_trial(BenchConfig config, const Spoken& spoken,
                          const navvi_files::Cache* cache, const Task& task) {
   config.loop.sim.world = task.world;
   config.loop.sim.seed = task.seed;
   const bool all = config.records == "all";
   std::filesystem::path folder;
   if (!config.out.empty()) folder = std::filesystem::path(config.out) / name_of(task);
-  record::Trial trial = play(config, phrases, cache, all ? folder : "");
+  record::Trial trial = play(config, spoken, cache, all ? folder : "");
   // The same trial once more: only one in many is kept, and it is the same bit for bit.
   const bool failed = trial.last("TRIAL_END")->fields.get("result") != "reached";
-  if (failed && !folder.empty() && !all) trial = play(config, phrases, cache, folder);
+  if (failed && !folder.empty() && !all) trial = play(config, spoken, cache, folder);
   if (!config.trace.empty())
     print_trace(trial, config.trace == "true" ? Span{0, 1000000} : span("trace", config.trace));
   record::Fields row;
@@ -243,7 +244,7 @@ int run(const BenchConfig& config) {
     const navvi_nav::lockstep::Navigation reads_its_files(config.loop.nav);
     return 0;
   }
-  const std::string phrases = share("navvi_feedback") + "/config/phrases/en.yaml";
+  const Spoken spoken(share("navvi_feedback") + "/config/phrases/en.yaml");
   const auto cache = batch::world_cache(static_cast<std::uintmax_t>(config.cache));
   const auto task_of = [&](std::size_t index) {
     return Task{worlds[index / seeds], span_of_seeds.from + static_cast<int>(index % seeds)};
@@ -259,7 +260,7 @@ int run(const BenchConfig& config) {
       worlds.size() * seeds, static_cast<std::size_t>(config.jobs),
       [&](std::size_t index) {
         const std::string text =
-            run_trial(config, phrases, cache ? &*cache : nullptr, task_of(index)).format();
+            run_trial(config, spoken, cache ? &*cache : nullptr, task_of(index)).format();
         std::cout.flush();
         return text;
       },

@@ -36,14 +36,18 @@ std::string GuideConfig::lead(bool audible) const {
   return !audible && touch.enabled && touch.instead_of_words ? "hand" : (*this)->lead;
 }
 
-Guide::Parts::Parts(const GuideConfig::Values& config, const std::filesystem::path& file)
+std::shared_ptr<const cues::Phrases> read_phrases(const std::filesystem::path& file) {
+  return std::make_shared<const cues::Phrases>(file);
+}
+
+Guide::Parts::Parts(const GuideConfig::Values& config, cues::Phrases worded)
     : config(config),
       senses(config.kStale),
       drive(config.drive),
       buttons(config.buttons),
       touch(config.haptics),
       sounds(config.sounds),
-      phrases(file, config.cues.wording),
+      phrases(std::move(worded)),
       policy(config.cues, phrases),
       teacher(config.lesson, phrases, config.buttons, config.haptics, config.sounds,
               0.5 * config.drive.max_turn / config.drive.turn_acceleration, config.questions) {
@@ -203,8 +207,11 @@ void Guide::Parts::say(const cues::CueQueue::Step& step, const Devices& devices,
   }
 }
 
-Guide::Guide(const GuideConfig& config, const std::filesystem::path& phrases)
-    : parts_(std::make_unique<Parts>(*config.operator->(), phrases)) {}
+Guide::Guide(const GuideConfig& config, const cues::Phrases& phrases) {
+  cues::Phrases worded = phrases;
+  worded.use(config->cues.wording);
+  parts_ = std::make_unique<Parts>(*config.operator->(), std::move(worded));
+}
 Guide::~Guide() = default;
 
 void Guide::take(const Message& message, double time) {

@@ -27,7 +27,7 @@ namespace navvi_feedback::core {
 
 /// All that decides on the person's side, in the order of a beat.
 struct Guide::Parts {
-  Parts(const GuideConfig::Values& config, const std::filesystem::path& file);
+  Parts(const GuideConfig::Values& config, cues::Phrases worded);
 
   template <typename Message>
   void take(const Message& message, double time) {

@@ -75,7 +75,7 @@ class Driven : public GuideTest {
                const std::vector<bool>& buttons = {}) {
     GuideConfig config;
     navvi_config::read(config, YAML::Load(parameters), "test");
-    Guide guide(config, kEnglish);
+    Guide guide(config, cues::Phrases(kEnglish));
     Beat output;
     for (int tick = 0; tick < 125; ++tick, time_ += 0.02) {
       input_.hands.axes = tick < 25 ? std::vector<double>(axes.size()) : axes;

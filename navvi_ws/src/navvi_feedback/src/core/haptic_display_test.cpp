@@ -62,7 +62,7 @@ TEST_F(GuideTest, patterns_are_left_out_where_touch_is_not_wanted) {
   for (const char* text : {"haptics: {enabled: false}", "haptics: {patterns: false}"}) {
     GuideConfig config;
     navvi_config::read(config, YAML::Load(text), "test");
-    Guide guide(config, kEnglish);
+    Guide guide(config, cues::Phrases(kEnglish));
     guide.take(Contact{ThingClass::shelf, {0.0, 0.4}, 7}, time_);
     EXPECT_FALSE(beat(guide, input_, time_).pattern) << text;
   }
@@ -100,7 +100,7 @@ TEST_F(GuideTest, what_is_near_is_felt_while_it_is_fresh) {
 TEST(Pad, is_felt_as_its_person_has_calibrated_it_and_another_as_configured) {
   GuideConfig config;
   config->haptics.pads = {"abc 0.05 0.05 0.5"};
-  Guide guide(config, kEnglish);
+  Guide guide(config, cues::Phrases(kEnglish));
   Devices input;
   input.hands.live = true;
   double time = 10.0;

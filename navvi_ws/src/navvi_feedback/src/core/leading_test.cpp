@@ -15,7 +15,7 @@ class Leading : public testing::Test {
   void begin(const std::string& lead) {
     GuideConfig config;
     navvi_config::read(config, YAML::Load("{lead: " + lead + "}"), "test");
-    guide_ = std::make_unique<Guide>(config, kEnglish);
+    guide_ = std::make_unique<Guide>(config, cues::Phrases(kEnglish));
     devices_.hands.live = true;
     devices_.hands.axes = {0.0, 0.0};
     devices_.hands.buttons = {false, false};
@@ -182,7 +182,7 @@ TEST_F(Leading, takes_to_the_hand_only_where_no_sound_reaches_anybody) {
 TEST(LeadingConfig, by_the_hand_is_refused_without_motors) {
   GuideConfig config;
   navvi_config::read(config, YAML::Load("{lead: hand, haptics: {enabled: false}}"), "test");
-  EXPECT_THROW(Guide(config, kEnglish), navvi_config::ConfigError);
+  EXPECT_THROW(Guide(config, cues::Phrases(kEnglish)), navvi_config::ConfigError);
 }
 
 }  // namespace

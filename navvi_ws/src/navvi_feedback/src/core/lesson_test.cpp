@@ -12,7 +12,7 @@ namespace {
 /// Hears each text for half a second, and presses the arrow down when it is silent.
 class Learner {
  public:
-  explicit Learner(const std::string& lesson) : guide_(config(lesson), kEnglish) {
+  explicit Learner(const std::string& lesson) : guide_(config(lesson), cues::Phrases(kEnglish)) {
     input_.hands.live = true;
     input_.hands.axes = {0.0, 0.0};
     input_.hands.buttons.resize(15);

@@ -21,7 +21,7 @@ class RememberTest : public GuideTest {
     restart();
   }
   void restart() {
-    kept_ = std::make_unique<Guide>(config_, kEnglish);
+    kept_ = std::make_unique<Guide>(config_, cues::Phrases(kEnglish));
     stand();
   }
   /// At (3, -1), as far as all is known.

@@ -42,8 +42,8 @@ class FeedbackNode {
       : config_(config),
         settings_(config_),
         welcomes_(settings_.loaded()),
-        guide_(config.feedback, config.phrases_file()),
         words_(config.phrases_file()),
+        guide_(config.feedback, words_),
         devices_(config),
         outlets_(node_, config, devices_.source().kind() != InputSource::Kind::topic),
         inlets_(node_, config, guide_, devices_,
@@ -153,8 +153,8 @@ class FeedbackNode {
   NodeConfig config_;
   Settings settings_;
   bool welcomes_;  ///< the person's settings were loaded, and that is to be said
+  cues::Phrases words_;  ///< of the guide and the picture
   core::Guide guide_;
-  cues::Phrases words_;  ///< of the picture
   PersonDevices devices_;
   Beat beat_{kLate};
   HeartbeatNotice heartbeat_;

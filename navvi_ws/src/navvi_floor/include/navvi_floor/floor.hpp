@@ -60,7 +60,9 @@ class Bands {
       bands_.emplace_back(new Value[band_size()]);
       const std::size_t count =
           static_cast<std::size_t>(std::min(kRows, rows - y)) * static_cast<std::size_t>(columns);
-      for (std::size_t i = 0; i < count; ++i, values += step) bands_.back()[i] = *values;
+      Value* const band = bands_.back().get();
+      (void)(step == 0 ? std::fill_n(band, count, *values) : std::copy_n(values, count, band));
+      values += step * count;
       std::fill(bands_.back().get() + count, bands_.back().get() + band_size(), Value{});
     }
   }

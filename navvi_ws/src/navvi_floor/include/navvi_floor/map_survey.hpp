@@ -31,8 +31,8 @@ namespace navvi_floor {
 /// and an obstacle if a part is. With `cell_size` 0 they are parts of voxels where else erosion by
 /// `margin` would close a way that is 6 cm wider than the robot.
 [[nodiscard]] MapSurvey survey_map(const Voxels& voxels, const SurveyConfig& config);
-/// Nearly half of that, once for several surveys, where these look for the floor at the same height.
-void measure_columns(Voxels& voxels, const SurveyConfig& config);
+/// All but the cells of that, once for surveys that look for the same floor.
+void see_ground(Voxels& voxels, const SurveyConfig& config);
 
 /// Likewise, of a map as it comes. Only the least rectangle round all that differs from a map
 /// before is read and surveyed, with what is around it: as far as a ramp could be seen, and

@@ -51,7 +51,7 @@ struct VoxelBox {
   std::array<int, 3> high;
 };
 
-class HeightField;
+struct SeenGround;
 
 /// All that navigation wants from an OctoMap: where it is occupied.
 struct Voxels {
@@ -61,7 +61,7 @@ struct Voxels {
   std::vector<VoxelBox> boxes = {};  ///< besides, by one that knows them; they may overlap
   std::string source = {};         ///< what a file says of itself; may be empty
   std::vector<Block> blocks = {};  ///< of the stream, if they were read from one, by `low`
-  std::shared_ptr<const HeightField> columns = {};  ///< by measure_columns(); null: not yet
+  std::shared_ptr<const SeenGround> seen = {};  ///< by see_ground(); null: not yet
 };
 
 /// The beginning of a word of a map, fit for a terminal.

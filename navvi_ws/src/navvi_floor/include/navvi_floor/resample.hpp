@@ -29,6 +29,6 @@ struct GroundGrid {
 /// is, and an obstacle if a part is. Sets all but the floor's height; an error if there would be
 /// too many cells, or if it lies too far from the origin.
 /// \param how  of which `cell_size`, `margin` and `most_cells` count
-[[nodiscard]] MapSurvey resample(GroundGrid grid, const SurveyConfig& how);
+[[nodiscard]] MapSurvey resample(const GroundGrid& grid, const SurveyConfig& how);
 
 }  // namespace navvi_floor

@@ -38,43 +38,35 @@ Type* allocate(int count) {
   return out;
 }
 
-/// A compact height field with one span for each open cell, as rcBuildCompactHeightfield would make
-/// it of a single level.
+/// A compact height field with a span for each cell, of which open cells have theirs and no other
+/// cell is joined to any: as rcBuildCompactHeightfield would make it of a single level.
 CompactField compact_field(const TileCells& cells) {
   CompactField out(rcAllocCompactHeightfield());
   require(out != nullptr, "rcAllocCompactHeightfield");
-  const int side = cells.size + 2 * kBorder;
+  const int side = cells.size + 2 * kBorder, stride = side + 2, count = side * side;
   out->width = out->height = side;
   out->borderSize = 0;
   out->walkableHeight = 1;
   out->cs = out->ch = 1.0F;
   out->bmax[0] = out->bmax[2] = static_cast<float>(side);
   out->bmax[1] = 1.0F;
-  out->cells = allocate<rcCompactCell>(side * side);
-  int count = 0;
-  for (int at = 0; at < side * side; ++at) {
-    out->cells[at].index = static_cast<unsigned>(count) & 0xffffffU;
-    out->cells[at].count = cells.open[static_cast<std::size_t>(at)];
-    count += cells.open[static_cast<std::size_t>(at)];
-  }
+  out->cells = allocate<rcCompactCell>(count);
   out->spanCount = count;
   out->spans = allocate<rcCompactSpan>(count);
   out->areas = allocate<unsigned char>(count);
   std::fill_n(out->areas, count, RC_WALKABLE_AREA);
-  const auto apart = [&](bool inside, int at, int direction) {
-    return inside && cells.open[static_cast<std::size_t>(at)] != 0
-               ? 0U
-               : unsigned{RC_NOT_CONNECTED} << 6 * direction;
-  };
-  rcCompactSpan* span = out->spans;
+  std::vector<std::uint8_t> framed(static_cast<std::size_t>(stride * stride), 0);
+  for (int y = 0; y < side; ++y)
+    std::copy_n(&cells.open[static_cast<std::size_t>(y * side)], side,
+                &framed[static_cast<std::size_t>((y + 1) * stride + 1)]);
   for (int y = 0, at = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x, ++at) {
-      if (cells.open[static_cast<std::size_t>(at)] == 0) continue;
-      span->con = (apart(x > 0, at - 1, 0) | apart(y + 1 < side, at + side, 1) |
-                   apart(x + 1 < side, at + 1, 2) | apart(y > 0, at - side, 3)) &
-                  0xffffffU;
-      span->h = 255;
-      ++span;
+    const std::uint8_t* here = &framed[static_cast<std::size_t>((y + 1) * stride + 1)];
+    for (int x = 0; x < side; ++x, ++at, ++here) {
+      out->cells[at] = {static_cast<unsigned>(at) & 0xffffffU, *here};
+      // A direction has 6 bits, of which RC_NOT_CONNECTED is all: they are cleared where it is open.
+      const unsigned open = here[-1] | unsigned{here[stride]} << 6 | unsigned{here[1]} << 12 |
+                            unsigned{here[-stride]} << 18;
+      out->spans[at] = {0, 0, (0xffffffU - RC_NOT_CONNECTED * open) & 0xffffffU, 255};
     }
   }
   return out;
@@ -109,15 +101,8 @@ void measure_distances(rcCompactHeightfield& field, const TileCells& cells) {
   for (int y = side - 1; y >= 0; --y) sweep(y, -1);
   field.dist = allocate<unsigned short>(field.spanCount);
   field.maxDistance = 0;
-  unsigned short* out = field.dist;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      if (cells.open[static_cast<std::size_t>(y * side + x)] == 0) continue;
-      *out = near[static_cast<std::size_t>((y + 1) * stride + x + 1)];
-      field.maxDistance = std::max(field.maxDistance, *out);
-      ++out;
-    }
-  }
+  for (int y = 0; y < side; ++y) std::copy_n(row_of(y), side, field.dist + y * side);
+  field.maxDistance = *std::max_element(field.dist, field.dist + field.spanCount);
 }
 
 /// An area of its own for each region: Recast then keeps the border between two regions on the
@@ -236,18 +221,20 @@ void build_layers(rcCompactHeightfield& field, std::vector<std::uint8_t> open) {
     amid[i] = open[i - 1] & open[i] & open[i + 1] & above[-1] & above[0] & above[1] & below[-1] &
               below[0] & below[1];
   }
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      rcCompactCell& cell = field.cells[at(x, y)];
-      if (cell.count == 0) continue;
-      const auto piece = static_cast<unsigned short>(pieces[at(x, y)]);
-      const int border = y == last ? 4 : y == 0 ? 3 : x == last ? 2 : 1;
-      field.spans[cell.index].reg =
-          piece != 0 ? piece : static_cast<unsigned short>(RC_BORDER_REG | border);
-      field.maxRegions = std::max(field.maxRegions, piece);
-      cell.count = amid[at(x, y)] == 0;
-    }
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    field.spans[i].reg = static_cast<unsigned short>(pieces[i]);
+    if (amid[i] != 0) field.cells[i].count = 0;
   }
+  for (int i = 0; i < side; ++i) {
+    field.spans[at(0, i)].reg = RC_BORDER_REG | 1;
+    field.spans[at(last, i)].reg = RC_BORDER_REG | 2;
+  }
+  for (int i = 0; i < side; ++i) {
+    field.spans[at(i, 0)].reg = RC_BORDER_REG | 3;
+    field.spans[at(i, last)].reg = RC_BORDER_REG | 4;
+  }
+  field.maxRegions =
+      static_cast<unsigned short>(*std::max_element(pieces.begin(), pieces.end()));
   field.borderSize = kBorder;
 }
 

@@ -60,7 +60,7 @@ std::vector<mesh::GridPolygon> take_lone_cells(TileCells& cells, int grow) {
     const std::uint8_t* row = &open(0, y);
     for (int x = 0; x < cells.size; ++x) {
       const int from = x;
-      while (x < cells.size && row[x] != 0) ++x;
+      x = static_cast<int>(std::find(row + x, row + cells.size, std::uint8_t{0}) - row);
       if (x == from + 1 && !(y > 0 && row[from - side] != 0) &&
           !(y + 1 < cells.size && row[from + side] != 0))
         lone.push_back({from, y});
@@ -86,10 +86,13 @@ int count_corners(const TileCells& cells) {
   for (int y = 1; y < side; ++y) {
     const std::uint8_t* below = cells.open.data() + static_cast<std::size_t>((y - 1) * side);
     const std::uint8_t* above = below + side;
-    for (int x = 1; x < side; ++x)
-      count += (below[x - 1] ^ below[x] ^ above[x - 1] ^ above[x]) |
-               (below[x - 1] & ~below[x] & ~above[x - 1] & above[x]) |
-               (~below[x - 1] & below[x] & above[x - 1] & ~above[x] & 1);
+    std::uint16_t in_row = 0;  // narrow, for the compiler's vectors
+    for (int x = 1; x < side; ++x) {
+      const std::uint8_t under = below[x - 1] ^ below[x], over = above[x - 1] ^ above[x];
+      const std::uint8_t corner = (under ^ over) | (under & over & (below[x] ^ above[x]));
+      in_row = static_cast<std::uint16_t>(in_row + corner);
+    }
+    count += in_row;
   }
   return count;
 }

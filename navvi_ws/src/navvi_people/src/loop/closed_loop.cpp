@@ -60,7 +60,7 @@ ClosedLoop::Setting::Setting(const ClosedLoopConfig& config, const navvi_files::
                    navvi_sim::setup::map_of(config.sim, world));
 }
 
-ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
+ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const Spoken& spoken,
                        const navvi_files::Cache* cache)
     : config_(with_headroom(config)),
       setting_(config, cache),
@@ -68,7 +68,7 @@ ClosedLoop::ClosedLoop(const ClosedLoopConfig& config, const std::string& phrase
                static_cast<std::uint64_t>(config.sim.seed)),
       gate_(config.sim.gate),
       navigation_(config.nav, cache),
-      guided_(config.feedback, config.person, config.sim.seed, config.speech, phrases) {
+      guided_(config.feedback, config.person, config.sim.seed, config.speech, spoken) {
   if (config.driver == "sighted")
     sighted_.emplace(config.person.typed().driving, static_cast<std::uint64_t>(config.person.seed),
                      static_cast<std::uint64_t>(config.sim.seed));

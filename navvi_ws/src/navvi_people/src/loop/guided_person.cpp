@@ -20,11 +20,14 @@ people::SimulatedOperatorConfig taught(people::SimulatedOperatorConfig person,
 
 }  // namespace
 
+Spoken::Spoken(const std::string& phrases)
+    : file(phrases), phrases(navvi_feedback::core::read_phrases(phrases)), listener(phrases) {}
+
 GuidedPerson::GuidedPerson(const navvi_feedback::core::GuideConfig& guide,
                            const people::SimulatedOperatorConfig& person, int occasion, bool speech,
-                           const std::string& phrases)
-    : guide_(guide, phrases),
-      person_(taught(person, guide, speech), phrases, occasion),
+                           const Spoken& spoken)
+    : guide_(guide, *spoken.phrases),
+      person_(taught(person, guide, speech), spoken.listener, occasion),
       speech_(speech),
       heard_(speech || guide.has_sounds()) {}
 

@@ -38,7 +38,7 @@ Trial drive(double bottom, const std::string& sensing, const std::string& height
   config.sim.sensing = sensing;
   navvi_config::read(config.nav, navvi_config::read_words({"mesh/robot_height:=" + height}),
                      "the test");
-  ClosedLoop loop(config, NAVVI_PHRASES);
+  ClosedLoop loop(config, Spoken(NAVVI_PHRASES));
   Trial trial;
   while (loop.time() < 40.0 && loop.step()) {
     trial.contacts += static_cast<int>(loop.told().contacts.size());

@@ -28,7 +28,7 @@ TEST(Zones, a_person_is_led_round_a_closed_one_and_slowly_through_a_slow_one) {
   navvi_config::read(config.nav,
                      navvi_config::read_words({"mesh/zones:=" + folder.write("zones.yaml", kZones)}),
                      "the test");
-  ClosedLoop loop(config, NAVVI_PHRASES);
+  ClosedLoop loop(config, Spoken(NAVVI_PHRASES));
   std::set<std::string> said;
   double nearest = 10.0, fastest = 0.0;
   while (loop.time() < 120.0 && loop.step()) {

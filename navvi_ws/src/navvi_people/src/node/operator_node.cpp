@@ -44,7 +44,8 @@ int main(int argc, char** argv) {
     const int world = ros::param::param<int>(ros::names::resolve("sim_node") + "/seed", 0);
     navvi_people::people::SimulatedOperatorConfig taught = config.person.typed();
     ros::param::param<std::string>(feedback + "/lead", taught.lead, taught.lead);
-    navvi_people::people::SimulatedOperator person(taught, phrases, world);
+    navvi_people::people::SimulatedOperator person(
+        taught, navvi_people::people::Listener(phrases), world);
     double left = 0.0;
     double right = 0.0;
     ros::Publisher joy = node.advertise<sensor_msgs::Joy>("joy", 1);

@@ -1,6 +1,7 @@
 #include "navvi_people/people/simulated_operator.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "people/traits.hpp"
 
@@ -87,11 +88,11 @@ void SimulatedOperatorConfig::describe(navvi_config::Visitor& visit) {
   visit.group("learning", learning);
 }
 
-SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config,
-                                     const std::filesystem::path& phrases, int occasion)
+SimulatedOperator::SimulatedOperator(const SimulatedOperatorConfig& config, Listener listener,
+                                     int occasion)
     : config_(practised(config)),
       learning_(config.learning),
-      ears_(config_.hearing, stream(config, 1, occasion), phrases),
+      ears_(config_.hearing, stream(config, 1, occasion), std::move(listener)),
       turning_(config_.turning, stream(config, 2, occasion)),
       driving_(config.driving, stream(config, 3), stream(config, 3, occasion)),
       feeling_(config_.feeling, stream(config, 4, occasion)),

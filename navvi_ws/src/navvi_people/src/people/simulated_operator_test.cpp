@@ -35,7 +35,7 @@ class Loop {
  public:
   explicit Loop(std::uint64_t seed = 1) : Loop(steady(seed), 1) {}
   Loop(const SimulatedOperatorConfig& config, int occasion)
-      : person(config, NAVVI_PHRASES, occasion) {}
+      : person(config, Listener(NAVVI_PHRASES), occasion) {}
 
   /// The hand; the voice stays silent. \return the last of it
   StickAndButtons pass(int steps) {

@@ -43,17 +43,21 @@ FloorWays::FloorWays(navvi_floor::Floor floor)
   for (int y = 0; y < floor_.rows(); ++y) {
     const std::uint16_t* gap2 = floor_.gap2_row(floor_.origin().y + y);
     const navvi_floor::Ground* ground = floor_.all_ground().row(y);
-    for (int x = 0; x < floor_.columns(); ++x)
-      if (ground[x] == navvi_floor::Ground::floor)
-        gap2_[number(x, y)] = static_cast<std::uint16_t>(gap2[x] + 1);
+    std::uint16_t* const row = &gap2_[number(0, y)];
+    for (int x = 0, end = floor_.columns(); x < end; ++x)
+      row[x] = static_cast<std::uint16_t>(
+          ground[x] == navvi_floor::Ground::floor ? gap2[x] + 1 : 0);
   }
 }
 
 std::vector<std::uint8_t> FloorWays::blocked() const {
   std::vector<std::uint8_t> out(size(), 0);
-  for (int y = 0; y < floor_.rows(); ++y)
-    for (int x = 0; x < floor_.columns(); ++x)
-      out[number(x, y)] = floor_.all_ground().at(x, y) == navvi_floor::Ground::obstacle ? 1 : 0;
+  for (int y = 0; y < floor_.rows(); ++y) {
+    const navvi_floor::Ground* const ground = floor_.all_ground().row(y);
+    std::uint8_t* const row = &out[number(0, y)];
+    for (int x = 0, end = floor_.columns(); x < end; ++x)
+      row[x] = ground[x] == navvi_floor::Ground::obstacle ? 1 : 0;
+  }
   return out;
 }
 

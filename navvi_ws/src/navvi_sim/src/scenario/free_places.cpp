@@ -30,10 +30,11 @@ std::vector<std::uint8_t> walls_around(const FloorWays& ways) {
     const std::uint8_t* const stands = &blocked[row];
     std::size_t first = 0, end = width;
     while (first < width && stands[first] == 0) ++first;
-    while (end > first && stands[end - 1] == 0) --end;
+    if (first == width) continue;
+    while (stands[end - 1] == 0) --end;
     std::uint8_t* const here = &count[row];
     for (std::size_t x = first; x < width; ++x) ++here[x];
-    for (std::size_t x = 0; x < end && first < end; ++x) ++here[x];
+    for (std::size_t x = 0; x < end; ++x) ++here[x];
   }
   // From row to row, up and down, each straight and to both sides.
   for (const bool up : {true, false}) {
@@ -142,10 +143,12 @@ std::uint32_t FreePlaces::main_part(const std::vector<std::uint32_t>& part,
                           });
     for (const std::uint32_t one : beside) ++ranks[one][0];
   }
+  std::uint32_t last = 0;
+  Rank* rank = nullptr;
   for (const std::size_t cell : all_) {
-    Rank& rank = ranks[part[cell]];
-    rank[1] += standing > 1 ? indoors[cell] : 0U;
-    ++rank[2];
+    if (rank == nullptr || part[cell] != last) rank = &ranks[last = part[cell]];
+    (*rank)[1] += standing > 1 ? indoors[cell] : 0U;
+    ++(*rank)[2];
   }
   const auto best = std::max_element(
       ranks.begin(), ranks.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -155,6 +158,8 @@ std::uint32_t FreePlaces::main_part(const std::vector<std::uint32_t>& part,
 double FreePlaces::side_of(const Places& places) const {
   if (places.empty()) return 0.0;
   const std::size_t width = ways_.width();
+  const double tall = ways_.centre(places.back()).y() - ways_.centre(places.front()).y();
+  if (tall >= kWide) return tall;
   std::size_t row = 0, low = width, high = 0;
   for (const std::size_t cell : places) {
     while (cell - row >= width) row += width;

@@ -42,7 +42,7 @@ class FreePlaces {
   /// closer together than a trial needs.
   template <typename Condition>
   void keep(const Condition& condition, double share);
-  /// m, the longer side of the rectangle around places.
+  /// m, the longer side of the rectangle around places, or one that is long enough.
   [[nodiscard]] double side_of(const Places& places) const;
   void find_quiet();
 

@@ -40,7 +40,7 @@ Course course_of(const SimNodeConfig& config, const WorldDescription& world,
     out.ends = from_bytes(*bytes);
     return out;
   }
-  navvi_floor::measure_columns(
+  navvi_floor::see_ground(
       out.voxels, scenario::level_survey(world.floor_height, config.life.robot.height));
   out.ends = scenario_of(config, world, out.voxels);
   if (cache != nullptr) cache->keep(key, to_bytes(out.ends));

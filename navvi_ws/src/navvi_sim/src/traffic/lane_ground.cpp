@@ -59,6 +59,7 @@ std::vector<std::size_t> PolygonIndex::touching(const Polygon& other) const {
 
 Polygon swept(const Track& track, const Footprint& print, double from, double to) {
   std::vector<Eigen::Vector2d> points;
+  points.reserve(2 * print.hull.size());
   double wider = 0.0;
   const auto stand = [&](const Track::Element& element, double s) {
     const Pose2 place = element.place(s);

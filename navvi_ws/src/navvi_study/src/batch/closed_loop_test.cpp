@@ -157,7 +157,7 @@ class ClosedLoopIn : public testing::Test {
   /// The figures of a trial of at most `limit` s, and `hash`, of the world's last state.
   record::Fields play(const std::string& world, double limit) {
     config_.sim.world = folder_.write("room.world", world);
-    ClosedLoop loop(config_, phrases_);
+    ClosedLoop loop(config_, navvi_people::loop::Spoken(phrases_));
     LoopTrial trial(limited(limit), loop, phrases_);
     sensing_ = Sensing();
     while (loop.step() && trial.watch()) sensing_.watch(loop);
@@ -247,7 +247,7 @@ TEST_F(ClosedLoopIn, everyCombinationOfChannelsRunsAndOfOneThatIsOffNothingIsPla
                        navvi_config::read_words({"sounds/enabled:=" + shown(sounds),
                                                  "haptics/enabled:=" + shown((channels & 4) != 0)}),
                        "the test");
-    ClosedLoop loop(config_, phrases_);
+    ClosedLoop loop(config_, navvi_people::loop::Spoken(phrases_));
     int spoken = 0, sounded = 0;
     bool moved = false;
     while (loop.time() < 20.0) {
@@ -374,7 +374,7 @@ TEST(APersonWhoObeysWhatIsTaught,
   config.sim.world = "warehouse";
   config.sim.seed = 7;
   config.person.attention.patience = config.person.attention.idle_patience = 60.0;
-  ClosedLoop loop(config, NAVVI_PHRASES);
+  ClosedLoop loop(config, navvi_people::loop::Spoken(NAVVI_PHRASES));
   LoopTrial trial(limited(400.0), loop, NAVVI_PHRASES);
   double told = 0.0, longest = 0.0;  // s
   bool goes_on = true;

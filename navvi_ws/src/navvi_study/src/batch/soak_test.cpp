@@ -41,7 +41,7 @@ std::string drive(int seed) {
   navvi_people::loop::ClosedLoopConfig config;
   config.sim.world = "easy";
   config.sim.seed = seed;
-  navvi_people::loop::ClosedLoop loop(config, NAVVI_PHRASES, nullptr);
+  navvi_people::loop::ClosedLoop loop(config, navvi_people::loop::Spoken(NAVVI_PHRASES), nullptr);
   trial::TrialNodeConfig trial_config;
   trial_config.limit = 40.0;
   LoopTrial trial(trial_config, loop, NAVVI_PHRASES);

@@ -21,6 +21,7 @@ fs::path folder_of(const char* variable) {
 }  // namespace
 
 std::optional<navvi_files::Cache> world_cache(std::uintmax_t megabytes) {
+  if (megabytes == 0) return std::nullopt;
   fs::path folder = folder_of("XDG_CACHE_HOME");
   if (folder.empty() && !folder_of("HOME").empty()) folder = folder_of("HOME") / ".cache";
   const std::optional<std::string> build = trial::build_ids();

@@ -33,7 +33,7 @@ class WorldCache : public testing::Test {
 
   /// All that is told in a trial of at most 40 s, and its row.
   [[nodiscard]] std::string play(const Cache* cache) const {
-    ClosedLoop loop(config_, NAVVI_PHRASES, cache);
+    ClosedLoop loop(config_, navvi_people::loop::Spoken(NAVVI_PHRASES), cache);
     trial::TrialNodeConfig config;
     config.limit = 40.0;
     LoopTrial trial(config, loop, NAVVI_PHRASES);
@@ -106,6 +106,7 @@ TEST_F(WorldCache, is_shared_by_conditions_that_do_not_shape_the_world) {
 
 TEST_F(WorldCache, lies_in_the_users_cache_folder) {
   ASSERT_EQ(::setenv("XDG_CACHE_HOME", folder_.string().c_str(), 1), 0);
+  EXPECT_FALSE(world_cache(0));
   const auto cache = world_cache(16);
   ASSERT_TRUE(cache);
   cache->keep("key", "bytes");

@@ -23,6 +23,10 @@
 #include "navvi_feedback/senses/devices.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
 
+namespace navvi_feedback::cues {
+class Phrases;
+}
+
 namespace navvi_feedback::core {
 
 using senses::Devices;
@@ -46,14 +50,16 @@ class GuideConfig {
   std::any values_;
 };
 
+/// Of a file, read once for any number of guides. \throws navvi_config::ConfigError
+[[nodiscard]] std::shared_ptr<const cues::Phrases> read_phrases(const std::filesystem::path& file);
+
 /// The core of feedback_node without devices and without a clock: values and a time go in, orders
 /// to devices come out. feedback_node and the closed loop run this same class. Times are s of one
 /// clock that does not run backwards; places are m, in map.
 class Guide {
  public:
-  /// \param phrases  file of the spoken phrases
-  /// \throws navvi_config::ConfigError if that file or the classes that are felt cannot be used
-  Guide(const GuideConfig& config, const std::filesystem::path& phrases);
+  /// \throws navvi_config::ConfigError if the classes that are felt cannot be used
+  Guide(const GuideConfig& config, const cues::Phrases& phrases);
   ~Guide();
 
   using Message = std::variant<navvi_types::Proximity, navvi_types::Guidance,

@@ -65,11 +65,10 @@ class ClosedLoop {
     people::Felt motors;                ///< as they are
   };
 
-  /// \param phrases  file of the spoken phrases
   /// \param cache  of what is made of a world before anything moves, which must last as long;
   /// nullptr: nothing is kept
   /// \throws WorldError or ConfigError with a sentence
-  ClosedLoop(const ClosedLoopConfig& config, const std::string& phrases,
+  ClosedLoop(const ClosedLoopConfig& config, const Spoken& spoken,
              const navvi_files::Cache* cache = nullptr);
 
   /// One step of the world, and whatever is due after it. \return false if the world has stopped

@@ -3,6 +3,7 @@
 #include <geometry_msgs/Transform.h>
 #include <navvi_msgs/Cue.h>
 
+#include <memory>
 #include <navvi_feedback/core/guide.hpp>
 #include <optional>
 #include <string>
@@ -12,15 +13,25 @@
 
 namespace navvi_people::loop {
 
+/// What guides say and persons understand, read once for any number of trials.
+struct Spoken {
+  std::string file;
+  std::shared_ptr<const navvi_feedback::cues::Phrases> phrases;
+  people::Listener listener;
+
+  /// \param phrases  file of the spoken phrases \throws ConfigError
+  explicit Spoken(const std::string& phrases);
+};
+
 /// A guide, and the person that it guides: what the one plays the other hears and feels.
 class GuidedPerson {
  public:
-  /// \param speech  false: nothing is spoken \param phrases  file of the spoken phrases
+  /// \param speech  false: nothing is spoken
   /// \throws ConfigError
   /// \param occasion  as of `SimulatedOperator`
   GuidedPerson(const navvi_feedback::core::GuideConfig& guide,
                const people::SimulatedOperatorConfig& person, int occasion, bool speech,
-               const std::string& phrases);
+               const Spoken& spoken);
 
   void take(const navvi_feedback::core::Guide::Message& message, double time) {
     guide_.take(message, time);

@@ -2,11 +2,11 @@
 
 #include <cstdint>
 #include <deque>
-#include <filesystem>
 #include <map>
 #include <navvi_types/random.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "navvi_config/field.hpp"
@@ -96,8 +96,8 @@ struct Tone {
 /// short sounds from their onset. Times are s, not going back.
 class Ears {
  public:
-  Ears(const HearingConfig& config, std::uint64_t seed, const std::filesystem::path& phrases)
-      : hearing_(config, seed), listener_(phrases) {}
+  Ears(const HearingConfig& config, std::uint64_t seed, Listener listener)
+      : hearing_(config, seed), listener_(std::move(listener)) {}
 
   void begins(const Speech& speech, const Belief& at, double time);
   void breaks_off(std::uint32_t id) { begun_.erase(id); }

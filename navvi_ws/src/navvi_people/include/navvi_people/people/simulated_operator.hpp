@@ -50,11 +50,10 @@ struct StickAndButtons {
 /// how wrongly. It does what is taught: after "stop" and "wait" it stays until "go on".
 class SimulatedOperator {
  public:
-  /// \param phrases  file of the phrases in the language that the person speaks
+  /// \param listener  to the language that the person speaks
   /// \param occasion  seed of what happens by chance, as is the world's: on another occasion the
   /// same person hears, misses and trembles otherwise
-  SimulatedOperator(const SimulatedOperatorConfig& config, const std::filesystem::path& phrases,
-                    int occasion);
+  SimulatedOperator(const SimulatedOperatorConfig& config, Listener listener, int occasion);
 
   void hear(const Heard& heard, double time);
   void feel(const Felt& felt, double time);
