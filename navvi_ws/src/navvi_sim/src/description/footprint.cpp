@@ -44,7 +44,6 @@ Polygon convex_hull(std::vector<Eigen::Vector2d> points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   Polygon hull;
-  hull.reserve(points.size() + 1);
   const auto grow = [&hull](const Eigen::Vector2d& point, std::size_t least) {
     while (hull.size() >= least &&
            cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.0)
