@@ -21,15 +21,15 @@ constexpr double kNoticed = 0.08;     // m/s; what is slower is shown as to stan
 constexpr double kBehind = -0.2;      // m, in base_link; what is farther back is passed
 constexpr double kAway = 0.3;         // rad
 constexpr double kDue = 0.1;          // rad; more is turned on the spot while the way is not free
-constexpr double kPast = 0.35;        // rad, likewise what is past a thing that is nearer than kKeeps
+constexpr double kPast = 0.35;        // rad, likewise past a thing that is nearer than kKeeps
 // A steering person as the predictor has it: between the able and the struggling.
 constexpr double kDelay = 0.6;     // s, from what is shown to the turn
 constexpr double kGain = 1.0;      // 1/s, turn rate over what is shown
 constexpr double kFastest = 1.0;   // rad/s
-constexpr double kTick = 0.02;     // s
+constexpr double kBeat = 0.1;      // s; what is not shown again for longer was shown no longer
 constexpr double kBend = 0.5;      // share of the speed that an angle of kOnTheSpot takes
 constexpr double kCorner = 0.15;   // share of the full speed at a right angle
-constexpr double kBefore = 3.0;    // m, over which the speed falls to that
+constexpr double kBefore = 3.0;    // m, of way for the full speed more
 
 /// m/s that what is ahead, within so many m to either side, allows.
 /// \param from_moving  m, to be kept from what moves
@@ -64,6 +64,14 @@ double away(const std::vector<NearThing>& nearby, double beside) {
   return left - right;
 }
 
+/// Share of the full speed that a turn and a corner ahead allow.
+double bend(const Way& way, double left, double off) {
+  if (off > kOnTheSpot) return 0.0;
+  const double sharp = std::min(1.0, std::abs(way.turn) / (0.5 * navvi_types::kPi));
+  const double corner = 1.0 - (1.0 - kCorner) * sharp + way.corner / kBefore;
+  return std::min(corner, 1.0 - kBend * std::abs(left) / kOnTheSpot);
+}
+
 }  // namespace
 
 haptics::Rumble flow_of(const Course& course) {
@@ -75,31 +83,24 @@ haptics::Rumble flow_of(const Course& course) {
 double Pilot::pending(double time) {
   while (!shown_.empty() && (shown_.front().first < time - kDelay || shown_.back().first > time))
     shown_.pop_front();
-  double turn = 0.0;
-  for (const auto& one : shown_) turn += kTick * std::clamp(kGain * one.second, -kFastest, kFastest);
+  double turn = 0.0, until = time;
+  for (auto one = shown_.rbegin(); one != shown_.rend(); ++one) {
+    const double rate = std::clamp(kGain * one->second, -kFastest, kFastest);
+    turn += rate * std::min(kBeat, until - one->first);
+    until = one->first;
+  }
   return turn;
 }
 
-std::optional<Course> Pilot::update(std::optional<Way> way, const std::vector<NearThing>& nearby,
-                                    double beside, double speed, double full, double time) {
+std::optional<Course> Pilot::update(const std::optional<Way>& way,
+                                    const std::vector<NearThing>& nearby, double beside,
+                                    double speed, double full, double time) {
   if (!way) {
     went_ = time;
     return std::nullopt;
   }
-  const bool due = std::abs(way->off) >= kDue;
-  way->off -= pending(time);
-  const std::optional<Course> shown = course(*way, nearby, beside, speed, full, time);
-  if (!shown || (shown->speed <= 0.0 && !due)) return std::nullopt;
-  shown_.emplace_back(time, shown->turn);
-  return shown;
-}
-
-std::optional<Course> Pilot::course(const Way& way, const std::vector<NearThing>& nearby,
-                                    double beside, double speed, double full, double time) {
-  const double off = std::abs(way.off);
-  const double sharp = std::min(1.0, std::abs(way.turn) / (0.5 * navvi_types::kPi));
-  const double corner = 1.0 - (1.0 - kCorner) * sharp + way.corner / kBefore;
-  const double bend = off > kOnTheSpot ? 0.0 : std::min(corner, 1.0 - kBend * off / kOnTheSpot);
+  const double left = navvi_types::wrap(way->off - pending(time));
+  const double off = std::max(std::abs(way->off), std::abs(left));
   double free = allowed(nearby, kHalfLane, kKeepsMoving, beside, speed, full);
   if (free > kNoticed || !went_) went_ = time;
   if (const double waited = time - *went_; waited > kPatience) {
@@ -110,9 +111,13 @@ std::optional<Course> Pilot::course(const Way& way, const std::vector<NearThing>
     return thing.nearest.x() > 0.0 && thing.gap < kKeeps;
   });
   if (free <= kNoticed || (before && off > kPast)) free = 0.0;
-  if (free <= 0.0 && off < kDue) return std::nullopt;
+  if (free <= 0.0 && std::abs(way->off) < kDue) return std::nullopt;
   const double aside = off < kOnTheSpot ? away(nearby, beside) : 0.0;
-  return Course{way.off + aside, std::min(bend, free / full)};
+  const Course course{left + aside, std::min(bend(*way, left, off), free / full)};
+  // A lesser turn on the spot is not felt.
+  if (course.speed > 0.0 || std::abs(course.turn) >= kWorthTurning)
+    shown_.emplace_back(time, course.turn);
+  return course;
 }
 
 }  // namespace navvi_feedback::lead

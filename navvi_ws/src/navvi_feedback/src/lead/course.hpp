@@ -30,21 +30,18 @@ struct Way {
 /// turn that this has yet to bring is not shown again (Smith's predictor, 1957).
 class Pilot {
  public:
-  /// Call it at 50 Hz.
+  /// Call it at 50 Hz or more.
   /// \param way  nullopt: nothing leads
-  /// \param beside  m, gap to what stands beside the robot, within which it is led away, and slowly;
-  /// with kBesideByHand also slowly towards what stands beside the lane and the nose points at
+  /// \param beside  m, gap to what stands beside the robot, within which it is led away, and
+  /// slowly; with kBesideByHand also slowly towards what the nose points at beside the lane
   /// \param speed  m/s, of the robot
   /// \param full  m/s, at full stick
   /// \param time  s, of a clock that does not run backwards
-  [[nodiscard]] std::optional<Course> update(std::optional<Way> way,
+  [[nodiscard]] std::optional<Course> update(const std::optional<Way>& way,
                                              const std::vector<NearThing>& nearby, double beside,
                                              double speed, double full, double time);
 
  private:
-  [[nodiscard]] std::optional<Course> course(const Way& way,
-                                             const std::vector<NearThing>& nearby, double beside,
-                                             double speed, double full, double time);
   /// rad, clockwise, that what was shown is still to turn the robot by
   [[nodiscard]] double pending(double time);
 
@@ -54,8 +51,8 @@ class Pilot {
 
 /// `beside`, as pulses show a turn later and more coarsely than a sound does.
 constexpr double kBesideBySound = 0.3, kBesideByHand = 0.4;  // m
-/// rad; more is turned on the spot.
-constexpr double kOnTheSpot = 0.8;
+/// rad; more is turned on the spot, and less than kWorthTurning is not worth a turn on the spot.
+constexpr double kOnTheSpot = 0.8, kWorthTurning = 0.35;
 
 /// A course as one sound between the ears: its place is the angle to steer, its pitch the speed.
 /// Silence is to stand, so that a dead voice leads nobody on.

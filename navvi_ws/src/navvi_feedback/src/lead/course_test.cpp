@@ -57,14 +57,14 @@ TEST(Pilot, shows_a_turn_past_what_is_all_but_touched_on_the_spot) {
 
 /// A robot that turns as late and as quickly as a person steers who is shown the way.
 /// \return rad, by which it turns too far
-double overshoot(double delay, double gain) {
+double overshoot(double delay, double gain, double beat = 0.02) {
   Pilot pilot;
-  std::deque<double> pipe(static_cast<std::size_t>(delay / 0.02), 0.0);
+  std::deque<double> pipe(static_cast<std::size_t>(delay / beat), 0.0);
   double off = 0.7, least = off;
-  for (double time = 0.0; time < 20.0; time += 0.02) {
+  for (double time = 0.0; time < 20.0; time += beat) {
     const auto course = pilot.update(Way{off}, {}, kBesideBySound, 0.0, kFull, time);
     pipe.push_back(course.value().turn);
-    off -= 0.02 * gain * pipe.front();
+    off -= beat * gain * pipe.front();
     pipe.pop_front();
     least = std::min(least, off);
   }
@@ -77,15 +77,46 @@ TEST(Pilot, leads_the_able_and_the_slow_round_a_corner_without_turning_too_far) 
   EXPECT_LT(overshoot(0.6, 1.0), 0.01);
   EXPECT_LT(overshoot(1.2, 0.5), 0.05);
   EXPECT_LT(overshoot(1.0, 1.0), 0.2) << "quicker than fits the delay";
+  EXPECT_NEAR(overshoot(1.0, 1.0, 0.01), overshoot(1.0, 1.0), 0.02) << "beats of 10 ms";
+}
+
+/// What is shown of an angle that has been shown for so long.
+Course held(double off, double seconds, const std::vector<NearThing>& nearby = {}) {
+  Pilot pilot;
+  Course last;
+  for (double time = 0.0; time < seconds; time += 0.02)
+    last = pilot.update(Way{off}, nearby, kBesideBySound, 0.0, kFull, time).value_or(Course{});
+  return last;
+}
+
+TEST(Pilot, turns_on_the_spot_a_robot_that_does_not_turn_yet) {
+  EXPECT_DOUBLE_EQ(held(1.2, 3.0).speed, 0.0);
+  EXPECT_GT(held(1.2, 3.0).turn, 0.5);
+  EXPECT_DOUBLE_EQ(held(0.5, 3.0, {thing(0.2, 0.5, 0.3, false)}).speed, 0.0);
+}
+
+TEST(Pilot, does_not_turn_back_half_way_round) {
+  Pilot pilot;
+  for (double time = 0.0; time < 0.6; time += 0.02)
+    EXPECT_GT(pilot.update(Way{3.1}, {}, kBesideBySound, 0.0, kFull, time)->turn, 0.0);
+  EXPECT_GT(pilot.update(Way{-3.1}, {}, kBesideBySound, 0.0, kFull, 0.6)->turn, 0.0);
+}
+
+TEST(Pilot, shows_without_a_break_what_little_is_to_turn_before_the_way_is_free) {
+  Pilot pilot;
+  for (double time = 0.0; time < 1.5; time += 0.02)
+    EXPECT_TRUE(pilot.update(Way{0.13}, {thing(0.5, 0.9, 0.0, true)}, kBesideBySound, 0.0, kFull,
+                             time));
 }
 
 TEST(Pilot, slows_the_hand_down_before_a_wall_beside_the_lane_that_the_nose_points_at) {
   const std::vector<NearThing> ahead = {thing(0.5, 0.6, 0.7, false)};
   const double way = 0.5 * std::hypot(0.6, 0.7) / 0.6;
-  EXPECT_NEAR(shown(0.0, ahead, 0.7, kBesideByHand).value().speed, (way - 0.25) / 1.7 / kFull, 1e-9);
+  const double speed = (way - 0.25) / 1.7 / kFull;
+  EXPECT_NEAR(shown(0.0, ahead, 0.7, kBesideByHand).value().speed, speed, 1e-9);
   EXPECT_DOUBLE_EQ(shown(0.0, ahead, 0.7).value().speed, 1.0) << "a sound is followed at once";
-  EXPECT_DOUBLE_EQ(shown(0.0, {thing(0.5, 0.1, 0.8, false)}, 0.7, kBesideByHand).value().speed, 1.0)
-      << "along it";
+  const std::vector<NearThing> along = {thing(0.5, 0.1, 0.8, false)};
+  EXPECT_DOUBLE_EQ(shown(0.0, along, 0.7, kBesideByHand).value().speed, 1.0);
 }
 
 TEST(Pilot, creeps_past_what_waits_beside_the_lane_after_two_seconds) {
@@ -103,7 +134,8 @@ TEST(Pilot, takes_what_nobody_notices_for_standing) {
   Pilot pilot;
   const std::vector<NearThing> waits = {thing(0.64, 0.9, 0.0, true)};
   EXPECT_FALSE(pilot.update(Way{}, waits, kBesideByHand, 0.0, kFull, 100.0)) << "0.04 m/s";
-  EXPECT_TRUE(pilot.update(Way{}, waits, kBesideByHand, 0.0, kFull, 109.0)) << "it does not go away";
+  EXPECT_TRUE(pilot.update(Way{}, waits, kBesideByHand, 0.0, kFull, 109.0))
+      << "it does not go away";
 }
 
 TEST(Pilot, creeps_towards_what_does_not_go_away_and_stands_before_it) {

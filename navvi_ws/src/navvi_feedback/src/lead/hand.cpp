@@ -12,7 +12,6 @@ constexpr double kSlow = 0.9;       // s, slowly
 constexpr double kMuch = 0.55;      // share of the full speed, from which pulses are quick
 constexpr double kSome = 0.25;      // likewise medium
 constexpr double kLeast = 0.08;     // likewise slow; less is to stand
-constexpr double kWorthTurning = 0.35;  // rad, on the spot
 constexpr double kStraight = 0.12;  // rad; less is straight on
 constexpr double kAmple = 0.41;     // rad; more is a strong pulse
 // Below the force of the patterns, which have both motors at 0.8 or more.

@@ -38,8 +38,8 @@ Type* allocate(int count) {
   return out;
 }
 
-/// A compact height field with a span for each cell, of which open cells have theirs and no other
-/// cell is joined to any: as rcBuildCompactHeightfield would make it of a single level.
+/// A compact height field with a span for each cell, of which open cells have theirs and no cell
+/// is joined to one that is not open: as rcBuildCompactHeightfield would make it of a single level.
 CompactField compact_field(const TileCells& cells) {
   CompactField out(rcAllocCompactHeightfield());
   require(out != nullptr, "rcAllocCompactHeightfield");
@@ -63,7 +63,7 @@ CompactField compact_field(const TileCells& cells) {
     const std::uint8_t* here = &framed[static_cast<std::size_t>((y + 1) * stride + 1)];
     for (int x = 0; x < side; ++x, ++at, ++here) {
       out->cells[at] = {static_cast<unsigned>(at) & 0xffffffU, *here};
-      // A direction has 6 bits, of which RC_NOT_CONNECTED is all: they are cleared where it is open.
+      // A direction has 6 bits, all of RC_NOT_CONNECTED: they are cleared where it is open.
       const unsigned open = here[-1] | unsigned{here[stride]} << 6 | unsigned{here[1]} << 12 |
                             unsigned{here[-stride]} << 18;
       out->spans[at] = {0, 0, (0xffffffU - RC_NOT_CONNECTED * open) & 0xffffffU, 255};

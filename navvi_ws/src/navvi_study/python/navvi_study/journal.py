@@ -88,8 +88,9 @@ class Journal:
         return row
 
     def _set_aside(self, torn):
-        with open(self.path.with_suffix(".torn"), "ab", buffering=0) as aside:
+        with open(self.path.with_suffix(".torn"), "ab") as aside:
             aside.write(torn + b"\n")
+            aside.flush()
             os.fsync(aside.fileno())
 
 
