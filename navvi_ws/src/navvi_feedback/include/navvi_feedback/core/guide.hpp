@@ -23,10 +23,6 @@
 #include "navvi_feedback/senses/devices.hpp"
 #include "navvi_feedback/sounds/learnt.hpp"
 
-namespace navvi_feedback::cues {
-class Phrases;
-}
-
 namespace navvi_feedback::core {
 
 using senses::Devices;

@@ -8,6 +8,8 @@
 
 namespace navvi_feedback::cues {
 
+class Phrases;  // the words of a language
+
 struct VoiceOrder {
   bool stop = false;                      ///< fall silent, before `start`
   std::optional<std::string> start = {};  ///< begin to speak this text
