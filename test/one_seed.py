@@ -3,7 +3,7 @@
 
     test/one_seed.py [SETTING ...] [--clang=clang++]
 
-Settings: default (the workspace as it is), O0, O3, native, uncontracted (native without fused operations), clang, sanitized; without any, all.
+Settings: default (the workspace as it is), O0, O3, native, clang, sanitized; without any, all.
 Of each, a build folder of some hundred MB, which goes away again. On one processor: taskset -c 0 test/one_seed.py.
 """
 import argparse
@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 WORKSPACE = ROOT / "navvi_ws"
 SETTINGS = {
     "default": None, "O0": "-O0 -DNDEBUG", "O3": "-O3 -DNDEBUG", "native": "-O2 -march=native -DNDEBUG",
-    "uncontracted": "-O2 -march=native -ffp-contract=off -DNDEBUG", "clang": "-O2 -DNDEBUG",
+    "clang": "-O2 -DNDEBUG",
     "sanitized": "-O1 -fsanitize=address,undefined -fno-sanitize-recover=all",
 }
 WORLDS, SEEDS = "busy,narrow,warehouse,easy", "1-3"
