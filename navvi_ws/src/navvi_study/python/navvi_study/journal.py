@@ -92,6 +92,7 @@ class Journal:
             aside.write(torn + b"\n")
             aside.flush()
             os.fsync(aside.fileno())
+        sync_folder(self.path.parent)
 
 
 def sum_of(path):
