@@ -104,7 +104,7 @@ class CommandGate {
  private:
   /// The person's, or nothing while the wheels are held.
   [[nodiscard]] navvi_types::Velocity held_or_driven(const Instant& now);
-  /// Drops a command that is older than the timeout; wheels that it drove are stopped.
+  /// Stops wheels, and forgets a neutral stick, where no valid command is young enough.
   void expire(const Instant& now);
 
   CommandGateConfig config_;

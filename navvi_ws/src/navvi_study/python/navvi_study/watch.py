@@ -39,7 +39,7 @@ STOPS = {
     DriveState.CLOCK_JUMPED: "the time jumped",
     DriveState.EMERGENCY_STOP: "the emergency stop is pressed",
 }
-WAITING = {TrialState.PREPARING: "The trial is being prepared", TrialState.CHOOSE_GOAL: "The trial waits for a goal",
+WAITING = {TrialState.PREPARING: "A trial is being prepared", TrialState.CHOOSE_GOAL: "The trial waits for a goal",
            TrialState.READY: "The trial waits until its person presses start"}
 SENSES = {Cue.SPEECH: "Said", Cue.RUMBLE: "Felt"}
 LASTING = ("rumble", "flow")  # what is felt of near things, and what leads, all the time
