@@ -14,6 +14,8 @@ import re
 import time
 from pathlib import Path
 
+import yaml
+
 from navvi_cli import trials, workspace
 from navvi_cli.arguments import LaunchFile, Words, add_words, words_for
 from navvi_cli.network import FarNetwork, Network
@@ -146,6 +148,8 @@ def check_by_programs(words):
     check_parameters(words)
     for name in filter(words.get, PLACES):
         accepted("feedback", FEEDBACK, [f"places:={words[name]}"])
+    if words.get("jobs") and not yaml.safe_load(words["jobs"].read_text(encoding="utf-8")):
+        fail(f"{words['jobs']}: a job must have at least one place.", 2)
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
     Verdict(words["world"], [f"config:={config_of('navvi_sim', words['profile'])}", *session, *words.parameters_of("sim")],
             words.parameters_of("nav"), words["profile"]).require()

@@ -23,6 +23,26 @@ constexpr double kTold = 0.25;   // m/s; a zone that leaves less is told
                                   what + ".");
 }
 
+/// Each edge of the polygon, as work(from, to).
+template <typename Work>
+void for_each_edge(const std::vector<Point>& corners, const Work& work) {
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    work(corners[i], corners[(i + 1) % corners.size()]);
+}
+
+bool edges_cross(const std::vector<Point>& corners) {
+  const auto parts = [](Point a, Point b, Point c, Point d) {
+    return cross(b - a, c - a) * cross(b - a, d - a) < 0.0;
+  };
+  bool found = false;
+  for_each_edge(corners, [&](Point a, Point b) {
+    for_each_edge(corners, [&](Point c, Point d) {
+      found = found || (parts(a, b, c, d) && parts(c, d, a, b));
+    });
+  });
+  return found;
+}
+
 Zone read_zone(const std::string& file, const YAML::Node& item) {
   constexpr double kFar = navvi_types::kFarthest;
   Zone zone;
@@ -49,14 +69,11 @@ Zone read_zone(const std::string& file, const YAML::Node& item) {
            "\"corners\" must be x and y of 3 to 100 corners, such as [0, 0, 4, 0, 4, 2]");
   for (std::size_t i = 0; i < numbers.size(); i += 2)
     zone.corners.push_back({numbers[i], numbers[i + 1]});
+  if (edges_cross(zone.corners))
+    reject(file, item,
+           "the lines between the \"corners\" of \"" + zone.name +
+               "\" cross; allowed are corners in their order round the zone");
   return zone;
-}
-
-/// Each edge of the polygon, as work(from, to).
-template <typename Work>
-void for_each_edge(const std::vector<Point>& corners, const Work& work) {
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    work(corners[i], corners[(i + 1) % corners.size()]);
 }
 
 double distance_to_edges(const Zone& zone, Point point) {
@@ -120,7 +137,6 @@ bool Zone::contains(Point point) const {
 Zones::Zones(const std::string& file) {
   if (file.empty()) return;
   const YAML::Node root = navvi_config::load_yaml(file);
-  if (root.IsNull()) return;
   if (!root.IsSequence() || root.size() > kMostZones)
     reject(file, root,
            "the file must be a list of at most 200 zones, such as - {name: press, kind: keep_out, "

@@ -124,10 +124,13 @@ TEST(Zones, closed_ones_are_obstacles_of_the_floor_and_slow_ones_are_not) {
 }
 
 TEST(Zones, what_cannot_be_a_zone_is_refused_with_its_line) {
-  EXPECT_EQ(refusal(""), "") << "an empty list";
+  EXPECT_EQ(refusal("[]"), "");
   EXPECT_EQ(refusal(kPress), "");
   for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
+           {"", "must be a list"},
            {"a: 1", "must be a list"},
+           {kPress + std::string("- {name: big, kind: rack, corners: [-1, -1, 3, 3, 3, -1, -1, 3]}"),
+            "line 2: the lines between the \"corners\" of \"big\" cross"},
            {"{}", "must be a list"},
            {"some words", "must be a list"},
            {"- {name: a, corners: [0, 0, 1, 0, 1, 1]}", "lacks \"kind\""},

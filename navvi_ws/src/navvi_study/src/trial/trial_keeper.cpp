@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/join.hpp>
 #include <cmath>
+#include <navvi_config/reader.hpp>
 #include <navvi_feedback/menu/places_file.hpp>
 #include <stdexcept>
 #include <utility>
@@ -49,6 +50,8 @@ TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const M
   config_.out = fs::absolute(config_.out).lexically_normal().string();
   if (!config_.job.empty()) {
     job_.places = navvi_feedback::menu::read_places(config_.job);
+    if (job_.places.empty())
+      throw navvi_config::ConfigError(config_.job + ": a job must have at least one place.");
     for (std::size_t i = 0; i < job_.places.size(); ++i) job_.left.push_back(i);
     config_.once = false;
   }
