@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_sim::scene {
 namespace {
@@ -53,11 +54,7 @@ std_msgs::ColorRGBA color_msg(const Color& color, float brightness) {
 }
 
 geometry_msgs::Point point_msg(const Eigen::Vector3d& point) {
-  geometry_msgs::Point msg;
-  msg.x = point.x();
-  msg.y = point.y();
-  msg.z = point.z();
-  return msg;
+  return navvi_types::point_msg(point.head<2>(), point.z());
 }
 
 geometry_msgs::Pose pose_msg(const Eigen::Isometry3d& pose) {
