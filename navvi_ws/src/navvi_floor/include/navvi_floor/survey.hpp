@@ -4,7 +4,6 @@
 #include <navvi_types/headroom.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "navvi_floor/floor.hpp"
 
