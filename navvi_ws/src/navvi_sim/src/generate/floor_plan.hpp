@@ -4,7 +4,6 @@
 #include <navvi_types/scenario.hpp>
 #include <vector>
 
-#include "description/random.hpp"
 #include "generate/layout_config.hpp"
 
 namespace navvi_sim::generate {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "description/footprint.hpp"
-#include "description/random.hpp"
 #include "description/sentence.hpp"
 #include "scenario/free_places.hpp"
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <navvi_files/printable.hpp>
 #include <navvi_types/angles.hpp>
+#include <navvi_types/random.hpp>
 #include <navvi_types/scenario.hpp>
 #include <navvi_types/thing.hpp>
 #include <optional>
@@ -19,6 +20,7 @@ namespace navvi_sim {
 using navvi_types::kPi;
 using navvi_types::Place;
 using navvi_types::Pose2;
+using navvi_types::Random;
 using navvi_types::ThingClass;
 
 struct Box {
