@@ -1,7 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <optional>
 #include <string>
 

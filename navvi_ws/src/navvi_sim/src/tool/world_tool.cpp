@@ -9,7 +9,7 @@
 #include <map>
 #include <navvi_config/reader.hpp>
 #include <navvi_files/json.hpp>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <sstream>
 
 #include "description/floor_height.hpp"
