@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <navvi_types/disjoint_sets.hpp>
 #include <string>
 
 #include "description/sentence.hpp"
@@ -25,28 +25,6 @@ int fitting(double room, double size) {
 std::size_t spread(int i, int count, int range) {
   return static_cast<std::size_t>((2 * i + 1) * range / (2 * count));
 }
-
-/// Which places are connected so far (Galler and Fischer, 1964).
-class Connected {
- public:
-  explicit Connected(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  /// \return whether they were not before
-  bool connect(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[a] = b;
-    return a != b;
-  }
-
- private:
-  std::size_t root(std::size_t place) {
-    while (parent_[place] != place) place = parent_[place] = parent_[parent_[place]];
-    return place;
-  }
-  std::vector<std::size_t> parent_;
-};
 
 }  // namespace
 
@@ -145,13 +123,13 @@ void FloorPlan::close_ways(double share, Random& random) {
     return static_cast<std::size_t>(lane) * static_cast<std::size_t>(crossings()) +
            static_cast<std::size_t>(crossing);
   };
-  Connected connected(static_cast<std::size_t>(lanes()) * static_cast<std::size_t>(crossings()));
-  for (int row = 0; row < rows_; ++row) connected.connect(place(row, 0), place(row + 1, 0));
+  navvi_types::DisjointSets<std::size_t> connected(static_cast<std::size_t>(lanes()) *
+                                                   static_cast<std::size_t>(crossings()));
+  for (int row = 0; row < rows_; ++row) connected.unite(place(row, 0), place(row + 1, 0));
   for (const Way& way : ways) {
-    const bool is_new =
-        way.is_aisle
-            ? connected.connect(place(way.along, way.across), place(way.along, way.across + 1))
-            : connected.connect(place(way.along, way.across), place(way.along + 1, way.across));
+    const bool is_new = connected.unite(
+        place(way.along, way.across),
+        way.is_aisle ? place(way.along, way.across + 1) : place(way.along + 1, way.across));
     if (!random.chance(share) || is_new) continue;
     if (way.is_aisle)
       aisles_[index(way.along, way.across)] = false;
