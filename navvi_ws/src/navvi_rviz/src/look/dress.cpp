@@ -57,9 +57,7 @@ void add_face(const Eigen::Vector3d& middle, const Eigen::Vector3d& u, const Eig
   double inset = 0.0;
   const double most = std::min(u.norm(), v.norm());
   const auto corner = [&](double a, double b, double in) {
-    const Eigen::Vector3d at =
-        middle + a * (u - in * u.normalized()) + b * (v - in * v.normalized());
-    return point_msg(at.head<2>(), at.z());
+    return point_msg(middle + a * (u - in * u.normalized()) + b * (v - in * v.normalized()));
   };
   constexpr double kA[] = {-1.0, 1.0, 1.0, -1.0, -1.0}, kB[] = {-1.0, -1.0, 1.0, 1.0, -1.0};
   for (const Frame& frame : frames) {
