@@ -14,7 +14,6 @@
 
 #include "description/floor_height.hpp"
 #include "description/footprint.hpp"
-#include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 #include "occupancy/octree.hpp"
 #include "read/layout_world.hpp"

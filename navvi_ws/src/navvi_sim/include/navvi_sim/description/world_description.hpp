@@ -91,6 +91,10 @@ struct WorldDescription {
   std::vector<Place> places = {};  ///< where they are; `at` is their middle, free or not
 };
 
+/// 64-bit FNV-1a over every name and number of `world`, as 16 hexadecimal digits. Two worlds with
+/// the same hash are, for a trial, the same world.
+[[nodiscard]] std::string world_hash(const WorldDescription& world);
+
 /// A sentence that says which file or thing is wrong, what is wrong with it, and what is allowed.
 class WorldError : public std::runtime_error {
  public:
