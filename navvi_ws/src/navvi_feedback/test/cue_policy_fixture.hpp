@@ -42,7 +42,7 @@ class CuePolicyTest : public testing::Test {
     return texts;
   }
 
-  Texts ask(Question question, double seconds = 0.1) {
+  Texts ask(Button question, double seconds = 0.1) {
     asked_.question = question;
     return pass(seconds);
   }

@@ -5,7 +5,6 @@
 #include <limits>
 #include <navvi_config/reader.hpp>
 #include <navvi_types/spoken.hpp>
-#include <utility>
 
 namespace navvi_floor {
 namespace {

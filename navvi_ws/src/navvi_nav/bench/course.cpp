@@ -17,6 +17,7 @@ constexpr double kShelf[2] = {10.0, 1.0};  // m
 constexpr double kAisle = 3.0;             // m
 constexpr double kTall = 0.4;              // m, all that the robot must see of a shelf
 constexpr double kWall = 0.2;              // m
+constexpr double kBox = 0.4;               // m, how high
 
 /// Occupied from (x0, y0, z0) to (x1, y1, z1), m.
 void fill(octomap::OcTree& tree, double x0, double y0, double z0, double x1, double y1, double z1) {
@@ -29,6 +30,13 @@ void fill(octomap::OcTree& tree, double x0, double y0, double z0, double x1, dou
     for (long y = voxel(y0); y < voxel(y1); ++y)
       for (long z = voxel(z0); z < voxel(z1); ++z)
         tree.updateNode(octomap::point3d(middle(x), middle(y), middle(z)), true, true);
+}
+
+std::vector<std::int8_t> bytes_of(const octomap::OcTree& tree) {
+  std::ostringstream stream;
+  tree.writeBinaryData(stream);
+  const std::string text = stream.str();
+  return {text.begin(), text.end()};
 }
 
 }  // namespace
@@ -66,19 +74,6 @@ octomap::OcTree Hall::map() const {
 
 using map::Floor;
 using mesh::Polygon;
-
-namespace {
-
-constexpr double kBox = 0.4;  // m, how high
-
-std::vector<std::int8_t> bytes_of(const octomap::OcTree& tree) {
-  std::ostringstream stream;
-  tree.writeBinaryData(stream);
-  const std::string text = stream.str();
-  return {text.begin(), text.end()};
-}
-
-}  // namespace
 
 double now() {
   timespec time{};

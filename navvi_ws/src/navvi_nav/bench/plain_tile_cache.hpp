@@ -10,10 +10,7 @@
 #include <octomap/OcTree.h>
 
 #include <array>
-#include <cstdint>
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "geometry.hpp"

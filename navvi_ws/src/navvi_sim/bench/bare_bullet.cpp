@@ -1,7 +1,6 @@
 #include "bare_bullet.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "physics/bullet_shapes.hpp"
 

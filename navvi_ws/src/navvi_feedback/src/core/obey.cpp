@@ -8,17 +8,6 @@ namespace {
 constexpr double kPlans = 5.0;      // s; no planner needs longer
 constexpr double kSameGoal = 0.05;  // m
 
-constexpr std::pair<drive::Button, cues::Question> kQuestions[] = {
-    {drive::Button::repeat, cues::Question::way},    {drive::Button::goal, cues::Question::goal},
-    {drive::Button::around, cues::Question::around}, {drive::Button::where, cues::Question::where},
-    {drive::Button::turn, cues::Question::turn},     {drive::Button::help, cues::Question::help}};
-
-std::optional<cues::Question> question_of(drive::Button button) {
-  for (const auto& [of, question] : kQuestions)
-    if (of == button) return question;
-  return std::nullopt;
-}
-
 /// m, in map; nullopt where the robot is not known to be there now
 std::optional<Eigen::Vector2d> place_of(const Observation& now) {
   const bool lost = !now.measured || now.links.guidance != Link::alive ||
@@ -35,8 +24,8 @@ cues::Asked Guide::Parts::obey(const Observation& now, double dt, Output& out) {
     if (!teacher.takes(button)) pressed.push_back(button);
   cues::Asked asked;
   for (const drive::Button button : pressed) {
-    if (const auto question = question_of(button)) asked.question = question;
-    if (asked.question == cues::Question::goal && now.lead == Lead::hand && now.goal_angle)
+    if (button <= drive::Button::help) asked.question = button;
+    if (asked.question == drive::Button::goal && now.lead == Lead::hand && now.goal_angle)
       touch.answer(*now.goal_angle, now.goal_straight);
     const menu::Menu::Step step = menu.press(button);
     if (step.goal) {

@@ -31,22 +31,22 @@ Utterance where_am_i(const Observation& now, Rounding rounding) {
 }
 
 /// What needs no path, or one that leads to the goal.
-std::optional<Utterance> about(Question question, const Tick& tick, Rounding rounding) {
+std::optional<Utterance> about(Button question, const Tick& tick, Rounding rounding) {
   const Observation& now = tick.now;
   const bool to_goal = tick.follows && now.guidance->state == Guidance::State::following;
-  if (question == Question::around) {
+  if (question == Button::around) {
     const bool far = now.connection.foresight > 0.0 && !stands(now);
     const auto stops = far ? stops_before(now.nearby, now.stops_in) : std::nullopt;
     return stops ? stops : around(now.nearby);
   }
-  if (question == Question::help)
+  if (question == Button::help)
     return Utterance{{CueKind::answer, now.devices.keyboard ? About::help_keys : About::help_pad}};
-  if (question == Question::where && (now.place || (to_goal && now.goal_angle)))
+  if (question == Button::where && (now.place || (to_goal && now.goal_angle)))
     return where_am_i(now, rounding);
   const bool ends = to_goal && now.guidance->ends_short && now.guidance->turn_angle == 0.0;
-  if (question == Question::turn && to_goal && !now.guidance->waypoint_is_goal && !ends)
+  if (question == Button::turn && to_goal && !now.guidance->waypoint_is_goal && !ends)
     return next_turn(*now.guidance, rounding);
-  if (question == Question::goal && to_goal) return goal_words(CueKind::goal_info, now, rounding);
+  if (question == Button::goal && to_goal) return goal_words(CueKind::goal_info, now, rounding);
   return std::nullopt;
 }
 
@@ -80,8 +80,8 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
     label.asked = true;
     return {label};
   }
-  const bool pressed = tick.asked.question &&
-                       (tick.asked.question != Question::way || halt.halted() || tells_way(tick.time));
+  const bool pressed = tick.asked.question && (tick.asked.question != Button::repeat ||
+                                               halt.halted() || tells_way(tick.time));
   const auto question = pressed ? tick.asked.question : std::exchange(question_, std::nullopt);
   for_go_on_ = false;
   if (!question) return {};
@@ -100,7 +100,7 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   answer->asked = true;
   answered_ = *answer;
   Utterances answers = {*answer};
-  if (question == Question::help) answers.push_back({CueKind::help_menu});
+  if (question == Button::help) answers.push_back({CueKind::help_menu});
   return answers;
 }
 

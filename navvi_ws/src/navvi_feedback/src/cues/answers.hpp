@@ -32,12 +32,12 @@ class Answers {
   /// Takes note that the way is asked for. \return false if that is too often
   [[nodiscard]] bool tells_way(double time);
 
-  std::optional<Question> asked_;     ///< the last that was answered
+  std::optional<Button> asked_;  ///< the last that was answered
   /// s, of the last two times that the way was told, the earlier one first
   std::array<double, 2> way_at_ = {-std::numeric_limits<double>::infinity(),
                                    -std::numeric_limits<double>::infinity()};
   std::optional<Content> answered_;   ///< the content of that, until it is heard
-  std::optional<Question> question_;  ///< still to be answered, or again
+  std::optional<Button> question_;    ///< still to be answered, or again
   bool for_go_on_ = false;            ///< it waits for "go on", which is due soon
 };
 

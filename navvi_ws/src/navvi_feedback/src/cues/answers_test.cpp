@@ -12,62 +12,62 @@ class AnswersTest : public CuePolicyTest {};
 TEST_F(AnswersTest, answers_a_question_at_once) {
   under_way();
   now_.voice_busy = true;
-  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
+  EXPECT_EQ(ask(Button::repeat), Texts{"drive straight, 20 meters"});
   EXPECT_EQ(last_.priority, Priority::message);
   now_.goal_angle = -1.6;
-  EXPECT_EQ(ask(Question::goal), Texts{"the goal is 20 meters on, at 9 o'clock"});
+  EXPECT_EQ(ask(Button::goal), Texts{"the goal is 20 meters on, at 9 o'clock"});
   now_.guidance.reset();
   pass(3.0);
-  EXPECT_EQ(ask(Question::goal), Texts{"there is no goal yet"});
+  EXPECT_EQ(ask(Button::goal), Texts{"there is no goal yet"});
 }
 
 TEST_F(AnswersTest, do_not_tell_the_way_a_third_time_within_seconds_so_that_a_person_can_drive) {
   under_way();
   std::size_t answers = 0;
   for (int second = 0; second < 12; ++second) {
-    answers += ask(Question::way).size();
+    answers += ask(Button::repeat).size();
     pass(0.9);
   }
   EXPECT_EQ(answers, 4U);
-  EXPECT_FALSE(ask(Question::goal).empty()) << "another question";
+  EXPECT_FALSE(ask(Button::goal).empty()) << "another question";
 }
 
 TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
   under_way();
   now_.goal_angle = 1.6;
   now_.goal_straight = 12.0;
-  EXPECT_EQ(ask(Question::where), Texts{"the goal is 12 meters, 3 o'clock, as the crow flies"});
+  EXPECT_EQ(ask(Button::where), Texts{"the goal is 12 meters, 3 o'clock, as the crow flies"});
   now_.place = navvi_types::Place{navvi_types::Place::Kind::aisle, 3};
-  EXPECT_EQ(ask(Question::where), Texts{"aisle 3, goal 12 meters 3 o'clock, as the crow flies"});
+  EXPECT_EQ(ask(Button::where), Texts{"aisle 3, goal 12 meters 3 o'clock, as the crow flies"});
   now_.guidance->state = Guidance::State::arrived;
   pass(3.0);
-  EXPECT_EQ(ask(Question::where), Texts{"aisle 3"});
+  EXPECT_EQ(ask(Button::where), Texts{"aisle 3"});
   now_.place.reset();
-  EXPECT_EQ(ask(Question::where), Texts{"you have reached the goal"});
+  EXPECT_EQ(ask(Button::where), Texts{"you have reached the goal"});
 }
 
 TEST_F(AnswersTest, tells_the_next_turn_and_what_the_buttons_do) {
   under_way();
-  EXPECT_EQ(ask(Question::turn), Texts{"drive straight, 20 meters"}) << "none before the goal";
+  EXPECT_EQ(ask(Button::turn), Texts{"drive straight, 20 meters"}) << "none before the goal";
   now_.guidance->waypoint_is_goal = false;
   now_.guidance->turn_angle = 1.6;
   now_.guidance->waypoint_distance = 18.0;
-  EXPECT_EQ(ask(Question::turn), Texts{"in 18 meters, turn to 3 o'clock"});
-  EXPECT_EQ(ask(Question::help).at(0).substr(0, 13), "press bottom ");
+  EXPECT_EQ(ask(Button::turn), Texts{"in 18 meters, turn to 3 o'clock"});
+  EXPECT_EQ(ask(Button::help).at(0).substr(0, 13), "press bottom ");
   now_.devices.keyboard = true;
-  EXPECT_EQ(ask(Question::help).at(0).substr(0, 13), "space repeats");
+  EXPECT_EQ(ask(Button::help).at(0).substr(0, 13), "space repeats");
 }
 
 TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   now_.guidance.reset();
-  EXPECT_EQ(ask(Question::around), Texts{"nothing is near"});
+  EXPECT_EQ(ask(Button::around), Texts{"nothing is near"});
   now_.nearby = {{ThingClass::wall, 1, 0.5, {0.0, 0.9}, false},
                  {ThingClass::worker, 2, 1.0, {-1.4, 0.0}, true},
                  {ThingClass::shelf, 3, 1.1, {0.0, -1.5}, false},
                  {ThingClass::box, 4, 1.2, {0.2, -1.6}, false},
                  {ThingClass::forklift, 5, 2.9, {3.3, 0.0}, true},
                  {ThingClass::pallet_robot, 6, 3.1, {0.0, 3.5}, true}};
-  EXPECT_EQ(ask(Question::around, 0.02),
+  EXPECT_EQ(ask(Button::around, 0.02),
             Texts{"wall 0.5 meters left, forklift ahead, shelf 1 meter right, worker 1 meter "
                   "behind"})
       << "four sides with their distances are too long to be spoken at once";
@@ -76,7 +76,7 @@ TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   EXPECT_EQ(last_.scan[1].from, Eigen::Vector2d(3.3, 0.0));
   now_.nearby = {{ThingClass::forklift, 5, 2.0, {-2.4, 0.0}, true},
                  {ThingClass::shelf, 3, 1.1, {0.0, 1.5}, false}};
-  EXPECT_EQ(ask(Question::around), Texts{"shelf 1 meter left, forklift 2 meters behind"});
+  EXPECT_EQ(ask(Button::around), Texts{"shelf 1 meter left, forklift 2 meters behind"});
 }
 
 TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
@@ -84,7 +84,7 @@ TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
                  {ThingClass::shelf, 2, 1.2, {1.6, 0.1}, false}};
   now_.measured = Velocity{0.2, 0.0};
   now_.stops_in = 0.2;
-  const auto ask_around = [&] { return ask(Question::around, 1.0).at(0); };
+  const auto ask_around = [&] { return ask(Button::around, 1.0).at(0); };
   EXPECT_EQ(ask_around().substr(0, 3), "box");
   now_.connection.foresight = 0.5;
   EXPECT_EQ(ask_around(), "you stop 1 meter before shelf");
@@ -97,14 +97,14 @@ TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
 
 TEST_F(AnswersTest, does_not_say_that_there_is_no_goal_while_a_path_may_be_on_its_way) {
   now_.guidance.reset();
-  EXPECT_EQ(ask(Question::way, 4.0), Texts{});
+  EXPECT_EQ(ask(Button::repeat, 4.0), Texts{});
 }
 
 TEST_F(AnswersTest, an_answer_that_was_heard_is_not_given_again_for_a_later_cue_that_was_dropped) {
   under_way();
   block();
   pass(1.0);
-  ask(Question::way);
+  ask(Button::repeat);
   note(2, {CueStage::started});
   note(3, {CueStage::dropped});
   EXPECT_EQ(pass(0.1), Texts{});

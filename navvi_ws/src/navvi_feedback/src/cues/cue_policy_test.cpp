@@ -28,7 +28,7 @@ TEST_F(CuePolicyTest, tells_one_direction_of_a_goal_whether_it_is_asked_for_or_n
     now_.guidance->goal.x() += 5.0;
     const auto of = [](const std::string& text) { return text.substr(text.rfind(',')); };
     const std::string unasked = of(pass(1.0).back());
-    EXPECT_EQ(of(ask(Question::goal, 0.02).front()), unasked);
+    EXPECT_EQ(of(ask(Button::goal, 0.02).front()), unasked);
     EXPECT_NE(unasked, "");
     pass(5.0);
   }
@@ -82,7 +82,7 @@ TEST_F(CuePolicyTest, mutes_what_a_person_does_without_but_no_safety_phrase_and_
   for (const CueStage stage : kHeard) policy_.note({{9, stage, CueKind::straight, go_on}});
   now_.measured->linear = 1.0;
   EXPECT_EQ(pass(0.5), Texts{});
-  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
+  EXPECT_EQ(ask(Button::repeat), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(CuePolicyTest, repeats_to_who_stands_what_to_do_and_not_what_was_said) {
@@ -98,7 +98,7 @@ TEST_F(CuePolicyTest, words_things_otherwise_as_soon_as_it_is_wanted) {
   WordingConfig wording;
   wording.verbosity = "brief";
   policy_.use(wording);
-  EXPECT_EQ(ask(Question::way), Texts{"straight"});
+  EXPECT_EQ(ask(Button::repeat), Texts{"straight"});
 }
 
 TEST_F(CuePolicyTest, speaks_of_what_is_near_before_there_is_a_goal_only_while_the_robot_moves) {
@@ -145,7 +145,7 @@ TEST_F(CuePolicyTest, orders_nothing_but_the_remedy_while_the_stick_is_held_in_v
       for (const std::string& text : pass(seconds)) told.insert(text);
     };
     hear(30.0);
-    asked_.question = Question::way;
+    asked_.question = Button::repeat;
     hear(1.0);
     ++now_.guidance->reroutes;
     now_.guidance->waypoint.y() += 5.0;

@@ -28,7 +28,7 @@ class HaltTest : public CuePolicyTest {
       forklift.gap -= 0.006;
       forklift.nearest.x() -= 0.006;
       now_.nearby = {forklift};
-      if (asking) asked_.question = Question::way;
+      if (asking) asked_.question = Button::repeat;
       said = pass(0.02);
     }
     return said;
@@ -51,7 +51,7 @@ TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   const auto heard = [&] { note(1, {CueStage::started}); };
   heard();
   pass(1.0);
-  EXPECT_EQ(ask(Question::way), kWait);
+  EXPECT_EQ(ask(Button::repeat), kWait);
   heard();
   follow();
   EXPECT_EQ(pass(1.8), Texts{}) << "what was just called in the way";
@@ -62,7 +62,7 @@ TEST_F(HaltTest, holds_a_wait_that_was_asked_for_again_but_not_for_ever) {
   follow();
   heard();
   for (int i = 0; i < 12 && last_.kind == CueKind::blocked; ++i) {
-    ask(Question::way, 1.0);
+    ask(Button::repeat, 1.0);
     heard();
   }
   EXPECT_EQ(last_.kind, CueKind::straight);
@@ -119,7 +119,7 @@ TEST_F(HaltTest, ends_a_wait_by_the_word_to_make_room) {
 TEST_F(HaltTest, answers_a_question_by_the_wait_however_often_and_that_ends_by_go_on) {
   block();
   now_.guidance->blocked_distance = 5.0;
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(Question::way, 0.2), kWait);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(Button::repeat, 0.2), kWait);
   follow();
   EXPECT_EQ(pass(3.0), kGoOn);
 }

@@ -14,7 +14,20 @@ class NoticeCues {
   /// \param last_words  s, without directions after the end of a trial
   explicit NoticeCues(double last_words) : last_words_(last_words) {}
 
-  [[nodiscard]] Utterances update(const Tick& tick);
+  [[nodiscard]] Utterances update(const Tick& tick) {
+    Utterances told;
+    std::set<Content> notices(tick.now.notices.begin(), tick.now.notices.end());
+    if (tick.asked.menu_closed) notices.insert({CueKind::menu_closed, About::menu_closed});
+    for (const Content& notice : notices) {
+      if (noticed_.count(notice) > 0) continue;
+      told.push_back({notice});
+      told.back().fillings.place_name = tick.now.zone;
+      told.back().fillings.person = tick.now.devices.person;
+      if (family_of(notice.kind) == Family::trial_end) trial_over_ = tick.time;
+    }
+    noticed_ = notices;
+    return told;
+  }
 
   [[nodiscard]] bool trial_over() const { return trial_over_.has_value(); }
   /// And just now: the session may be about to end, too.

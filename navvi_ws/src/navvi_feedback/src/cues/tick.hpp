@@ -3,25 +3,18 @@
 #include <optional>
 
 #include "cues/phrases.hpp"
+#include "navvi_feedback/drive/button.hpp"
 #include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {
 
-/// What a person asks by a button.
-enum class Question {
-  way,     ///< the last direction again
-  goal,    ///< where it is
-  around,  ///< what is near, and on which side
-  where,   ///< in which part of the world the robot is, and the goal from there
-  turn,    ///< the next one
-  help,    ///< what the buttons do
-};
+using drive::Button;
 
 /// What the buttons of a tick come to, once a lesson and the menu took theirs.
 struct Asked {
   std::optional<Utterance> menu;     ///< what the menu answers
   bool menu_closed = false;          ///< by itself
-  std::optional<Question> question;  ///< whose button went down
+  std::optional<Button> question;    ///< whose button went down
 };
 
 /// One instant, as each part of the policy sees it.

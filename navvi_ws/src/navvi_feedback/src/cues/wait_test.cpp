@@ -114,12 +114,12 @@ TEST_F(WaitTest, owes_go_on_until_the_person_drives) {
   now_.commanded.linear = -1.0;
   now_.measured->linear = -0.3;
   pass(0.1);
-  EXPECT_EQ(ask(Question::way), kGoOn) << "back is not on";
+  EXPECT_EQ(ask(Button::repeat), kGoOn) << "back is not on";
   note(++told, kHeard);
   now_.commanded.linear = 1.0;
   now_.measured->linear = 0.5;
   EXPECT_EQ(pass(12.0), Texts{});
-  EXPECT_EQ(ask(Question::way), Texts{"drive straight, 20 meters"});
+  EXPECT_EQ(ask(Button::repeat), Texts{"drive straight, 20 meters"});
 }
 
 TEST_F(WaitTest, is_not_over_because_a_later_word_to_stop_was_not_heard) {
@@ -172,19 +172,19 @@ TEST_F(WaitTest, is_neither_said_again_nor_taken_back_where_it_was_not_heard_and
 TEST_F(WaitTest, ends_by_go_on_and_not_by_why_it_was_where_that_is_asked_just_then) {
   follow();
   Texts told;
-  while (told.empty() || told == kWait) told = ask(Question::way, 0.02);
+  while (told.empty() || told == kWait) told = ask(Button::repeat, 0.02);
   EXPECT_EQ(told, kGoOn);
 }
 
 TEST_F(WaitTest, is_told_to_who_asks_only_when_its_reason_comes_back) {
   follow();
   EXPECT_EQ(pass(0.5), Texts{});
-  EXPECT_EQ(ask(Question::way, 3.0), kGoOn) << "asked and answered once";
+  EXPECT_EQ(ask(Button::repeat, 3.0), kGoOn) << "asked and answered once";
   block();
   pass(5.0);
   follow();
   pass(0.5);
-  ask(Question::way);
+  ask(Button::repeat);
   block();
   EXPECT_EQ(pass(0.1), kWait);
 }
@@ -192,7 +192,7 @@ TEST_F(WaitTest, is_told_to_who_asks_only_when_its_reason_comes_back) {
 TEST_F(WaitTest, ends_by_an_answer_that_comes_before_go_on_was_heard) {
   follow();
   EXPECT_EQ(pass(3.0), kGoOn);
-  EXPECT_EQ(ask(Question::way), kGoOn);
+  EXPECT_EQ(ask(Button::repeat), kGoOn);
 }
 
 }  // namespace

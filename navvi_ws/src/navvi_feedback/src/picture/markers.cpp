@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <navvi_types/angles.hpp>
+#include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_feedback::picture {
 namespace {
 
+using navvi_types::point_msg;
 using visualization_msgs::Marker;
 
 struct Color {
@@ -52,19 +54,11 @@ Marker shape(const char* ns, int id, int type, const Color& color) {
   return marker;
 }
 
-geometry_msgs::Point at(const Eigen::Vector2d& place, double height) {
-  geometry_msgs::Point point;
-  point.x = place.x();
-  point.y = place.y();
-  point.z = height;
-  return point;
-}
-
 Marker strip(const char* ns, int id, const std::vector<Eigen::Vector2d>& places, double width,
              double height, const Color& color) {
   Marker marker = shape(ns, id, Marker::LINE_STRIP, color);
   marker.scale.x = width;
-  for (const Eigen::Vector2d& place : places) marker.points.push_back(at(place, height));
+  for (const Eigen::Vector2d& place : places) marker.points.push_back(point_msg(place, height));
   return marker;
 }
 
@@ -72,7 +66,7 @@ Marker label(int id, const std::string& text, const Eigen::Vector2d& place, doub
              double size) {
   Marker marker = shape("label", id, Marker::TEXT_VIEW_FACING, kWhite);
   marker.text = text;
-  marker.pose.position = at(place, height);
+  marker.pose.position = point_msg(place, height);
   marker.scale.z = size;
   return marker;
 }
@@ -108,7 +102,7 @@ void add_path(const std::vector<Eigen::Vector2d>& path, std::vector<Marker>& mar
 void add_goal(const Eigen::Vector2d& goal, const cues::Phrases& words,
               std::vector<Marker>& markers) {
   Marker pole = shape("goal", 0, Marker::CYLINDER, kRed);
-  pole.pose.position = at(goal, kGoalHeight / 2.0);
+  pole.pose.position = point_msg(goal, kGoalHeight / 2.0);
   pole.scale.x = pole.scale.y = 0.5;
   pole.scale.z = kGoalHeight;
   markers[2] = pole;
@@ -124,7 +118,8 @@ void add_turn(const Guidance& guidance, const std::vector<Eigen::Vector2d>& path
       !std::isfinite(guidance.waypoint_distance))
     return;
   Marker arrow = shape("turn", 0, Marker::ARROW, kWhite);
-  arrow.points = {at(guidance.waypoint, 0.5), at(guidance.waypoint + 1.4 * *course, 0.5)};
+  arrow.points = {point_msg(guidance.waypoint, 0.5),
+                  point_msg(guidance.waypoint + 1.4 * *course, 0.5)};
   arrow.scale.x = 0.25;
   arrow.scale.y = 0.6;
   arrow.scale.z = 0.6;

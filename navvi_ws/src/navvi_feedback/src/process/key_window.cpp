@@ -103,16 +103,110 @@ std::set<int> held_keys(SDL_Window* window) {
 class KeyWindow {
  public:
   /// \return empty, or a sentence on what failed
-  [[nodiscard]] std::string open();
-  [[nodiscard]] drive::InputState read();
+  [[nodiscard]] std::string open() {
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    const std::string no_display = "The keyboard needs a display, and there is none. ";
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return no_display + SDL_GetError();
+    if (!visible()) return no_display + "Is DISPLAY set?";
+    // In an upper corner, where it covers neither the robot nor what is before it, and where room
+    // for the frame, whose height is not known yet, is below.
+    SDL_Rect screen = {0, 0, kWidth, kHeight};
+    SDL_GetDisplayUsableBounds(0, &screen);
+    window_ = SDL_CreateWindow(kWaits, screen.x + screen.w - kWidth - kMargin, screen.y, kWidth,
+                               kHeight, SDL_WINDOW_SHOWN | SDL_WINDOW_ALWAYS_ON_TOP);
+    if (!window_) return std::string("The keyboard's window does not open: ") + SDL_GetError();
+    ask_for_focus();
+    return "";
+  }
+
+  [[nodiscard]] drive::InputState read() {
+    SDL_Event event;
+    while (SDL_PollEvent(&event)) {
+      handle(event);
+      (void)counter_.count(state());
+    }
+    const auto now = Clock::now();
+    show(now - gave_way_ >= kGivesWay);
+    // RViz opens later, on top and with the focus. Once a key was used here, the focus is the
+    // person's.
+    if (visible_ && !focused_ && !used_ && now - asked_ >= kAskPeriod) ask_for_focus();
+    return counter_.count(state());
+  }
+
   void give_way() { gave_way_ = Clock::now(); }
 
  private:
-  void handle(const SDL_Event& event);
-  void show(bool visible);
-  void ask_for_focus();
-  void paint();
-  [[nodiscard]] drive::InputState state() const;
+  void handle(const SDL_Event& event) {
+    const Uint8 change =
+        event.type == SDL_WINDOWEVENT ? event.window.event : Uint8{SDL_WINDOWEVENT_NONE};
+    if (change == SDL_WINDOWEVENT_FOCUS_GAINED) {
+      focused_ = true;
+      ++session_;
+      down_.clear();
+      ignored_ = held_keys(window_);
+    } else if (change == SDL_WINDOWEVENT_FOCUS_LOST) {
+      focused_ = false;
+      down_.clear();
+    } else if (change == SDL_WINDOWEVENT_CLOSE) {
+      drive::InputState closing = state();
+      closing.live = true;
+      (void)counter_.count(closing);
+      closing.buttons[kEnd] = true;
+      (void)counter_.count(closing);
+    } else if (event.type == SDL_KEYDOWN && event.key.repeat == 0) {
+      used_ = true;
+      const SDL_Keycode code = code_of(event.key.keysym);
+      if (ignored_.count(code) == 0) down_.insert(code);
+    } else if (event.type == SDL_KEYUP) {
+      ignored_.erase(code_of(event.key.keysym));
+      down_.erase(code_of(event.key.keysym));
+    }
+    if (change == SDL_WINDOWEVENT_FOCUS_GAINED || change == SDL_WINDOWEVENT_FOCUS_LOST ||
+        change == SDL_WINDOWEVENT_EXPOSED)
+      paint();
+  }
+
+  void show(bool visible) {
+    if (visible == std::exchange(visible_, visible)) return;
+    if (visible) {
+      SDL_ShowWindow(window_);
+      used_ = false;  // the other window is gone
+    } else {
+      SDL_HideWindow(window_);
+    }
+  }
+
+  void ask_for_focus() {
+    asked_ = std::chrono::steady_clock::now();
+    SDL_RaiseWindow(window_);
+    SDL_SetWindowInputFocus(window_);
+  }
+
+  /// Green while the keys drive, red while they do not.
+  void paint() {
+    SDL_SetWindowTitle(window_, focused_ ? kDrives : kWaits);
+    SDL_Surface* surface = SDL_GetWindowSurface(window_);
+    if (surface == nullptr) return;
+    SDL_FillRect(surface, nullptr,
+                 focused_ ? SDL_MapRGB(surface->format, 0, 200, 83)
+                          : SDL_MapRGB(surface->format, 176, 0, 32));
+    SDL_UpdateWindowSurface(window_);
+  }
+
+  [[nodiscard]] drive::InputState state() const {
+    drive::InputState input;
+    input.live = focused_;
+    input.session = session_;
+    const auto down = [&](SDL_Keycode key) { return down_.count(key) > 0; };
+    const double full = down(SDLK_LSHIFT) || down(SDLK_RSHIFT) ? kSlow : 1.0;
+    const auto axis = [&](SDL_Keycode plus, SDL_Keycode minus) {
+      return full * ((down(plus) ? 1.0 : 0.0) - (down(minus) ? 1.0 : 0.0));
+    };
+    input.axes = {axis(SDLK_LEFT, SDLK_RIGHT), axis(SDLK_UP, SDLK_DOWN)};
+    for (const Key& key : kButtons) input.buttons.push_back(down(key.code));
+    return input;
+  }
 
   SDL_Window* window_ = nullptr;
   bool visible_ = true;
@@ -124,108 +218,6 @@ class KeyWindow {
   drive::PressCounter counter_;
   Clock::time_point asked_{}, gave_way_{};
 };
-
-std::string KeyWindow::open() {
-  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-  SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
-  const std::string no_display = "The keyboard needs a display, and there is none. ";
-  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return no_display + SDL_GetError();
-  if (!visible()) return no_display + "Is DISPLAY set?";
-  // In an upper corner, where it covers neither the robot nor what is before it, and where room
-  // for the frame, whose height is not known yet, is below.
-  SDL_Rect screen = {0, 0, kWidth, kHeight};
-  SDL_GetDisplayUsableBounds(0, &screen);
-  window_ = SDL_CreateWindow(kWaits, screen.x + screen.w - kWidth - kMargin, screen.y, kWidth,
-                             kHeight, SDL_WINDOW_SHOWN | SDL_WINDOW_ALWAYS_ON_TOP);
-  if (!window_) return std::string("The keyboard's window does not open: ") + SDL_GetError();
-  ask_for_focus();
-  return "";
-}
-
-drive::InputState KeyWindow::state() const {
-  drive::InputState input;
-  input.live = focused_;
-  input.session = session_;
-  const auto down = [&](SDL_Keycode key) { return down_.count(key) > 0; };
-  const double full = down(SDLK_LSHIFT) || down(SDLK_RSHIFT) ? kSlow : 1.0;
-  const auto axis = [&](SDL_Keycode plus, SDL_Keycode minus) {
-    return full * ((down(plus) ? 1.0 : 0.0) - (down(minus) ? 1.0 : 0.0));
-  };
-  input.axes = {axis(SDLK_LEFT, SDLK_RIGHT), axis(SDLK_UP, SDLK_DOWN)};
-  for (const Key& key : kButtons) input.buttons.push_back(down(key.code));
-  return input;
-}
-
-void KeyWindow::handle(const SDL_Event& event) {
-  const Uint8 change =
-      event.type == SDL_WINDOWEVENT ? event.window.event : Uint8{SDL_WINDOWEVENT_NONE};
-  if (change == SDL_WINDOWEVENT_FOCUS_GAINED) {
-    focused_ = true;
-    ++session_;
-    down_.clear();
-    ignored_ = held_keys(window_);
-  } else if (change == SDL_WINDOWEVENT_FOCUS_LOST) {
-    focused_ = false;
-    down_.clear();
-  } else if (change == SDL_WINDOWEVENT_CLOSE) {
-    drive::InputState closing = state();
-    closing.live = true;
-    (void)counter_.count(closing);
-    closing.buttons[kEnd] = true;
-    (void)counter_.count(closing);
-  } else if (event.type == SDL_KEYDOWN && event.key.repeat == 0) {
-    used_ = true;
-    const SDL_Keycode code = code_of(event.key.keysym);
-    if (ignored_.count(code) == 0) down_.insert(code);
-  } else if (event.type == SDL_KEYUP) {
-    ignored_.erase(code_of(event.key.keysym));
-    down_.erase(code_of(event.key.keysym));
-  }
-  if (change == SDL_WINDOWEVENT_FOCUS_GAINED || change == SDL_WINDOWEVENT_FOCUS_LOST ||
-      change == SDL_WINDOWEVENT_EXPOSED)
-    paint();
-}
-
-drive::InputState KeyWindow::read() {
-  SDL_Event event;
-  while (SDL_PollEvent(&event)) {
-    handle(event);
-    (void)counter_.count(state());
-  }
-  const auto now = Clock::now();
-  show(now - gave_way_ >= kGivesWay);
-  // RViz opens later, on top and with the focus. Once a key was used here, the focus is the
-  // person's.
-  if (visible_ && !focused_ && !used_ && now - asked_ >= kAskPeriod) ask_for_focus();
-  return counter_.count(state());
-}
-
-void KeyWindow::show(bool visible) {
-  if (visible == std::exchange(visible_, visible)) return;
-  if (visible) {
-    SDL_ShowWindow(window_);
-    used_ = false;  // the other window is gone
-  } else {
-    SDL_HideWindow(window_);
-  }
-}
-
-void KeyWindow::ask_for_focus() {
-  asked_ = std::chrono::steady_clock::now();
-  SDL_RaiseWindow(window_);
-  SDL_SetWindowInputFocus(window_);
-}
-
-/// Green while the keys drive, red while they do not.
-void KeyWindow::paint() {
-  SDL_SetWindowTitle(window_, focused_ ? kDrives : kWaits);
-  SDL_Surface* surface = SDL_GetWindowSurface(window_);
-  if (surface == nullptr) return;
-  SDL_FillRect(
-      surface, nullptr,
-      focused_ ? SDL_MapRGB(surface->format, 0, 200, 83) : SDL_MapRGB(surface->format, 176, 0, 32));
-  SDL_UpdateWindowSurface(window_);
-}
 
 Keys keys_of(const drive::InputState& input) {
   Keys keys{};

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "navvi_floor/floor.hpp"
 

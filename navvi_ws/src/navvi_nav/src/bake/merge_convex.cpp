@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
+#include <navvi_types/disjoint_sets.hpp>
 #include <tuple>
 #include <utility>
 
@@ -113,16 +113,10 @@ Corners joined(const Corners& first, const Corners& second, const Shared& edge, 
 
 std::vector<mesh::GridPolygon> merge_convex(std::vector<mesh::GridPolygon> polygons,
                                             int max_corners) {
-  std::vector<int> owner(polygons.size());
-  std::iota(owner.begin(), owner.end(), 0);
-  const auto root = [&owner](int polygon) {
-    while (owner[static_cast<std::size_t>(polygon)] != polygon)
-      polygon = owner[static_cast<std::size_t>(polygon)];
-    return polygon;
-  };
+  navvi_types::DisjointSets<int> owners(polygons.size());
   for (const Shared& edge : shared_edges(polygons)) {
-    const int first = root(edge.first);
-    const int second = root(edge.second);
+    const int first = owners.root(edge.first);
+    const int second = owners.root(edge.second);
     if (first == second) continue;
     Corners& kept = polygons[static_cast<std::size_t>(first)].corners;
     Corners& gone = polygons[static_cast<std::size_t>(second)].corners;
@@ -130,7 +124,7 @@ std::vector<mesh::GridPolygon> merge_convex(std::vector<mesh::GridPolygon> polyg
     if (both.empty()) continue;
     kept = std::move(both);
     gone.clear();
-    owner[static_cast<std::size_t>(second)] = first;
+    owners.unite(second, first);
   }
   for (mesh::GridPolygon& polygon : polygons) drop_straight_corners(polygon.corners);
   polygons.erase(

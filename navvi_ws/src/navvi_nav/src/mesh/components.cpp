@@ -9,14 +9,6 @@ std::size_t slot(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-int DisjointSets::root(int node) {
-  while (parents_[slot(node)] != node) {
-    parents_[slot(node)] = parents_[slot(parents_[slot(node)])];
-    node = parents_[slot(node)];
-  }
-  return node;
-}
-
 void Components::number(Mesh& mesh) {
   next_ = 0;
   for (Polygon& polygon : mesh.polygons) polygon.component = -1;

@@ -1,27 +1,12 @@
 #pragma once
 
 #include <array>
+#include <navvi_types/disjoint_sets.hpp>
 #include <vector>
 
 #include "mesh/mesh.hpp"
 
 namespace navvi_nav::mesh {
-
-/// Nodes in sets that can be united.
-class DisjointSets {
- public:
-  /// Makes room; nodes are in no set until add().
-  void grow(std::size_t count) { parents_.resize(count, -1); }
-  void add(int node) { parents_[static_cast<std::size_t>(node)] = node; }
-  void remove(int node) { parents_[static_cast<std::size_t>(node)] = -1; }
-  [[nodiscard]] bool has(int node) const { return parents_[static_cast<std::size_t>(node)] >= 0; }
-  void unite(int a, int b) { parents_[static_cast<std::size_t>(root(a))] = root(b); }
-  /// The same for all nodes of a set.
-  int root(int node);
-
- private:
-  std::vector<int> parents_;
-};
 
 /// Keeps the polygons' component numbers up to date while parts of the mesh change.
 class Components {
@@ -43,7 +28,7 @@ class Components {
   bool label(Mesh& mesh, const std::vector<Changed>& changed);
 
   int next_ = 0;
-  DisjointSets groups_;                   // of changed polygons that portals among them join
+  navvi_types::DisjointSets<int> groups_;  // of changed polygons that portals among them join
   std::vector<std::array<int, 3>> kept_;  // region, component and group where a component was kept
   std::vector<int> waiting_;
   std::vector<int> labels_;  // component of each group

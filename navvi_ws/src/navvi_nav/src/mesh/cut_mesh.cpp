@@ -1,7 +1,6 @@
 #include "mesh/cut_mesh.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 #include <utility>
 

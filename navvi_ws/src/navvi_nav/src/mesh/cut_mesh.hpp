@@ -70,7 +70,7 @@ class CutMesh {
     std::vector<int> near_edges;
     std::vector<const Hole*> holes;
     std::vector<SidePortal> side_portals;  ///< of changed polygons
-    DisjointSets regions;                  ///< of touched base polygons and their neighbours
+    navvi_types::DisjointSets<int> regions;  ///< of touched base polygons and their neighbours
     std::vector<Components::Changed> changed_components;
     EdgeMatcher matcher;
     Cutter cutter;

@@ -1,7 +1,6 @@
 #include "mesh/non_manifold_vertices.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace navvi_nav::mesh {
 namespace {

@@ -7,7 +7,7 @@
 #include <navvi_floor/map_survey.hpp>
 #include <navvi_floor/occupancy_grid.hpp>
 #include <navvi_floor/zones.hpp>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <optional>
 #include <set>
 #include <string>

@@ -9,7 +9,6 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_files/json.hpp>
 #include <navvi_floor/map_file.hpp>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>

@@ -3,7 +3,7 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_feedback/node/msg_conversion.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <stdexcept>
 #include <utility>

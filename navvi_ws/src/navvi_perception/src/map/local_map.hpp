@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <navvi_config/field.hpp>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <string>
 #include <utility>
 #include <vector>

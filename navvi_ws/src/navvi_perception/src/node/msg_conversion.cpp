@@ -13,6 +13,7 @@
 
 namespace navvi_perception::node {
 
+using navvi_types::point_msg;
 using navvi_types::Refusal;
 
 namespace {
@@ -222,7 +223,7 @@ std::vector<visualization_msgs::Marker> robot_markers(double radius, double heig
   nose.pose.position.z = height + 0.02;
   nose.color.r = nose.color.b = 0.0F;
   for (const auto& [x, y] : {std::pair{1.5, 0.0}, {-0.6, 0.75}, {-0.6, -0.75}})
-    nose.points.push_back(navvi_types::point_msg({radius * x, radius * y}, 0.0));
+    nose.points.push_back(point_msg({radius * x, radius * y}, 0.0));
   return {body, nose};
 }
 
@@ -248,25 +249,23 @@ visualization_msgs::MarkerArray seen_msg(const std::vector<Eigen::Vector3d>& sta
     marker.color.a = type == Marker::CYLINDER ? 0.6F : 1.0F;
     return marker;
   };
-  const auto point = [](const Eigen::Vector3d& at) {
-    return navvi_types::point_msg(at.head<2>(), at.z());
-  };
   // Of the last message nothing is left.
   add("", Marker::CYLINDER, Eigen::Vector3d::Zero()).action = Marker::DELETEALL;
   Marker& cubes = add("stands", Marker::CUBE_LIST, Eigen::Vector3d::Constant(resolution));
-  for (const Eigen::Vector3d& middle : standing) cubes.points.push_back(point(middle));
+  for (const Eigen::Vector3d& middle : standing) cubes.points.push_back(point_msg(middle));
   if (standing.empty()) array.markers.pop_back();
   for (const navvi_types::MovingThing& thing : obstacles.things) {
     const Eigen::Vector3d foot(thing.pose.position.x(), thing.pose.position.y(), thing.floor);
     const Eigen::Vector3d middle = foot + Eigen::Vector3d(0.0, 0.0, 0.5 * thing.height);
     add("obstacles", Marker::CYLINDER, {2.0 * thing.radius, 2.0 * thing.radius, thing.height})
-        .pose.position = point(middle);
+        .pose.position = point_msg(middle);
     if (thing.velocity.norm() == 0.0) continue;
     const Eigen::Vector3d way(thing.velocity.x(), thing.velocity.y(), 0.0);
     // Before and above the cylinder, which is flat where only a lidar saw the thing.
     const Eigen::Vector3d front =
         foot + thing.radius * way.normalized() + Eigen::Vector3d(0.0, 0.0, thing.height + 0.1);
-    add("velocities", Marker::ARROW, {0.1, 0.25, 0.0}).points = {point(front), point(front + way)};
+    add("velocities", Marker::ARROW, {0.1, 0.25, 0.0}).points = {point_msg(front),
+                                                                 point_msg(front + way)};
   }
   return array;
 }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <navvi_config/ros_parameters.hpp>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <navvi_types/subscribe.hpp>
 #include <navvi_types/transform_listener.hpp>

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <map>
 #include <navvi_types/angles.hpp>
+#include <navvi_types/msg_conversion.hpp>
 #include <optional>
 #include <utility>
 
 namespace navvi_rviz::look {
 namespace {
 
+using navvi_types::point_msg;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
@@ -20,18 +22,6 @@ constexpr double kEdge = 0.08;            // m, of each of the two edges of path
 constexpr double kThin = 0.04;            // m, of the edge of a box
 constexpr double kTile = 8.0;             // m, of the hall, that is drawn or left out as one
 constexpr double kBelow = 1.0;            // m; a lower underside is not seen
-
-geometry_msgs::Point point(double x, double y, double z) {
-  geometry_msgs::Point msg;
-  msg.x = x;
-  msg.y = y;
-  msg.z = z;
-  return msg;
-}
-
-geometry_msgs::Point point(const Eigen::Vector2d& place, double z) {
-  return point(place.x(), place.y(), z);
-}
 
 Color scaled(const Color& color, float factor) {
   return {std::min(1.0F, color.r * factor), std::min(1.0F, color.g * factor),
@@ -67,9 +57,7 @@ void add_face(const Eigen::Vector3d& middle, const Eigen::Vector3d& u, const Eig
   double inset = 0.0;
   const double most = std::min(u.norm(), v.norm());
   const auto corner = [&](double a, double b, double in) {
-    const Eigen::Vector3d at =
-        middle + a * (u - in * u.normalized()) + b * (v - in * v.normalized());
-    return point(at.x(), at.y(), at.z());
+    return point_msg(middle + a * (u - in * u.normalized()) + b * (v - in * v.normalized()));
   };
   constexpr double kA[] = {-1.0, 1.0, 1.0, -1.0, -1.0}, kB[] = {-1.0, -1.0, 1.0, 1.0, -1.0};
   for (const Frame& frame : frames) {
@@ -278,7 +266,7 @@ class Dresser {
     const double length = (to - from).norm(), wide = vision_.width * marker.scale.y;
     const auto add = [&](double more, double height, const Color& color) {
       const auto place = [&](double along, double across) {
-        return point(from + along * ahead + across * aside, height);
+        return point_msg(from + along * ahead + across * aside, height);
       };
       const double neck = length - wide, shaft = 0.25 * wide + more;
       add_quad({place(-more, -shaft), place(neck, -shaft), place(neck, shaft), place(-more, shaft)},
@@ -301,7 +289,7 @@ class Dresser {
     const double radius = 0.5 * marker.scale.x, half = 0.5 * marker.scale.z;
     const auto at = [&](int i, double r, double z) {
       const double angle = 2.0 * navvi_types::kPi * i / kCorners;
-      return point(r * std::cos(angle), r * std::sin(angle), z);
+      return point_msg({r * std::cos(angle), r * std::sin(angle)}, z);
     };
     const auto band = [&](double low, double high, const Color& color) {
       for (int i = 0; i < kCorners; ++i)
@@ -314,8 +302,8 @@ class Dresser {
     band(half - 0.05, half, vision_.dark);
     const double lid = radius - 0.04;
     for (int i = 0; i < kCorners; ++i) {
-      add_triangle({point(0.0, 0.0, half), at(i, lid, half), at(i + 1, lid, half)}, fill(marker),
-                   list);
+      add_triangle({point_msg({0.0, 0.0}, half), at(i, lid, half), at(i + 1, lid, half)},
+                   fill(marker), list);
       add_quad({at(i, lid, half), at(i, radius, half), at(i + 1, radius, half), at(i + 1, lid, half)},
                vision_.dark, list);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_rviz::look {
 namespace {
@@ -93,11 +94,7 @@ void add_ribbon(const std::vector<Eigen::Vector2d>& line, double from, double to
   if (line.size() < 2) return;
   const std::vector<Eigen::Vector2d> sides = sideways(line);
   const auto place = [&](std::size_t i, double distance) {
-    geometry_msgs::Point point;
-    point.x = line[i].x() + distance * sides[i].x();
-    point.y = line[i].y() + distance * sides[i].y();
-    point.z = height;
-    return point;
+    return navvi_types::point_msg(line[i] + distance * sides[i], height);
   };
   for (std::size_t i = 1; i < line.size(); ++i)
     add_quad({place(i - 1, from), place(i, from), place(i, to), place(i - 1, to)}, color, marker);

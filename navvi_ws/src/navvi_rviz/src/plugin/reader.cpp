@@ -21,27 +21,19 @@ double now() { return ros::SteadyTime::now().toSec(); }
 
 Reader::Reader() {
   const auto keep = [this](ros::Subscriber subscriber) { subscribers_.push_back(subscriber); };
-  keep(subscribe<navvi_msgs::Cue>(
-      node_, "navvi/cues", 100, from_msg,
-      [this](const navvi_types::CueEvent& cue) { status_.take(cue, now()); }));
-  keep(subscribe<navvi_msgs::Cue>(
-      node_, "navvi/order", 1, from_msg,
-      [this](const navvi_types::CueEvent& order) { status_.take_order(order); }));
-  keep(subscribe<navvi_msgs::Guidance>(
-      node_, "navvi/guidance", 1, from_msg,
-      [this](const navvi_types::Guidance& guidance) { status_.take(guidance); }));
-  keep(subscribe<navvi_msgs::DriveState>(
-      node_, "navvi/drive_state", 1, from_msg,
-      [this](const navvi_types::DriveState& state) { status_.take(state); }));
-  keep(subscribe<navvi_msgs::TrialState>(
-      node_, "navvi/trial_state", 1, from_msg,
-      [this](const navvi_types::TrialState& state) { status_.take(state); }));
-  keep(subscribe<nav_msgs::Odometry>(
-      node_, "odom", 1, from_msg,
-      [this](const navvi_types::Odometry& odom) { status_.take_speed(odom.velocity.linear); }));
-  keep(subscribe<navvi_msgs::Scenario>(
-      node_, "navvi/scenario", 1, from_msg,
-      [this](const navvi_types::Scenario& scenario) { goal_ = scenario.goal; }));
+  const auto take = [this](const auto& value) { status_.take(value); };
+  keep(subscribe<navvi_msgs::Cue>(node_, "navvi/cues", 100, from_msg,
+                                  [this](const auto& cue) { status_.take(cue, now()); }));
+  keep(subscribe<navvi_msgs::Cue>(node_, "navvi/order", 1, from_msg,
+                                  [this](const auto& order) { status_.take_order(order); }));
+  keep(subscribe<navvi_msgs::Guidance>(node_, "navvi/guidance", 1, from_msg, take));
+  keep(subscribe<navvi_msgs::DriveState>(node_, "navvi/drive_state", 1, from_msg, take));
+  keep(subscribe<navvi_msgs::TrialState>(node_, "navvi/trial_state", 1, from_msg, take));
+  keep(subscribe<nav_msgs::Odometry>(node_, "odom", 1, from_msg, [this](const auto& odometry) {
+    status_.take_speed(odometry.velocity.linear);
+  }));
+  keep(subscribe<navvi_msgs::Scenario>(node_, "navvi/scenario", 1, from_msg,
+                                       [this](const auto& scenario) { goal_ = scenario.goal; }));
   keep(node_.subscribe<navvi_msgs::TrialEvent>(
       "navvi/events", 100, [this](const navvi_msgs::TrialEvent::ConstPtr& event) {
         status_.take_event(event->type, event->header.stamp.toSec());

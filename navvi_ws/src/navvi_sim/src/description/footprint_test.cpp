@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "description/random.hpp"
-
 namespace navvi_sim {
 namespace {
 

@@ -5,8 +5,6 @@
 #include <functional>
 #include <limits>
 
-#include "navvi_sim/description/world_hash.hpp"
-
 namespace navvi_sim {
 namespace {
 

@@ -1,9 +1,5 @@
-#include "navvi_sim/description/world_hash.hpp"
-
-#include <cstdint>
-#include <navvi_types/scenario.hpp>
-
 #include "description/hash.hpp"
+#include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim {
 namespace {

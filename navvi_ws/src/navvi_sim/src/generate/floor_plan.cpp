@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <navvi_types/disjoint_sets.hpp>
 #include <string>
 
 #include "description/sentence.hpp"
@@ -25,28 +25,6 @@ int fitting(double room, double size) {
 std::size_t spread(int i, int count, int range) {
   return static_cast<std::size_t>((2 * i + 1) * range / (2 * count));
 }
-
-/// Which places are connected so far (Galler and Fischer, 1964).
-class Connected {
- public:
-  explicit Connected(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  /// \return whether they were not before
-  bool connect(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[a] = b;
-    return a != b;
-  }
-
- private:
-  std::size_t root(std::size_t place) {
-    while (parent_[place] != place) place = parent_[place] = parent_[parent_[place]];
-    return place;
-  }
-  std::vector<std::size_t> parent_;
-};
 
 }  // namespace
 
@@ -103,7 +81,7 @@ void FloorPlan::divide_width(const LayoutConfig& config) {
   const double rest = room - blocks_ * depth(bays_);
   staging_ = Area(hall_.min(), hall_.min());
   if (staging > 0.0) staging += rest;
-  staging_ = Area(hall_.min(), Eigen::Vector2d(hall_.max().x(), hall_.min().y() + staging));
+  staging_ = area_of(hall_.min().x(), hall_.min().y(), hall_.max().x(), hall_.min().y() + staging);
   first_block_ = hall_.max().y() - blocks_ * depth(bays_);
 }
 
@@ -145,13 +123,13 @@ void FloorPlan::close_ways(double share, Random& random) {
     return static_cast<std::size_t>(lane) * static_cast<std::size_t>(crossings()) +
            static_cast<std::size_t>(crossing);
   };
-  Connected connected(static_cast<std::size_t>(lanes()) * static_cast<std::size_t>(crossings()));
-  for (int row = 0; row < rows_; ++row) connected.connect(place(row, 0), place(row + 1, 0));
+  navvi_types::DisjointSets<std::size_t> connected(static_cast<std::size_t>(lanes()) *
+                                                   static_cast<std::size_t>(crossings()));
+  for (int row = 0; row < rows_; ++row) connected.unite(place(row, 0), place(row + 1, 0));
   for (const Way& way : ways) {
-    const bool is_new =
-        way.is_aisle
-            ? connected.connect(place(way.along, way.across), place(way.along, way.across + 1))
-            : connected.connect(place(way.along, way.across), place(way.along + 1, way.across));
+    const bool is_new = connected.unite(
+        place(way.along, way.across),
+        way.is_aisle ? place(way.along, way.across + 1) : place(way.along + 1, way.across));
     if (!random.chance(share) || is_new) continue;
     if (way.is_aisle)
       aisles_[index(way.along, way.across)] = false;
@@ -169,21 +147,20 @@ double FloorPlan::block_start(int block) const {
 Area FloorPlan::lane(int lane) const {
   const double west = lane == 0 ? hall_.min().x() : row_start(lane - 1) + kRowDepth;
   const double east = lane == rows_ ? hall_.max().x() : row_start(lane);
-  return {Eigen::Vector2d(west, staging_.max().y()), Eigen::Vector2d(east, hall_.max().y())};
+  return area_of(west, staging_.max().y(), east, hall_.max().y());
 }
 
 Area FloorPlan::cross_aisle(int crossing) const {
   const double south =
       crossing == 0 ? staging_.max().y() : block_start(crossing - 1) + bays_ * kBay;
   const double north = crossing == blocks_ ? hall_.max().y() : block_start(crossing);
-  return {Eigen::Vector2d(hall_.min().x(), south), Eigen::Vector2d(hall_.max().x(), north)};
+  return area_of(hall_.min().x(), south, hall_.max().x(), north);
 }
 
 Area FloorPlan::aisle(int lane, int block) const {
   const Area whole = this->lane(lane);
   const double south = block_start(block);
-  return {Eigen::Vector2d(whole.min().x(), south),
-          Eigen::Vector2d(whole.max().x(), south + bays_ * kBay)};
+  return area_of(whole.min().x(), south, whole.max().x(), south + bays_ * kBay);
 }
 
 Area FloorPlan::row(int row, int block) const {
@@ -193,8 +170,7 @@ Area FloorPlan::row(int row, int block) const {
 
 Area FloorPlan::passage(int row, int crossing) const {
   const Area whole = cross_aisle(crossing);
-  return {Eigen::Vector2d(row_start(row), whole.min().y()),
-          Eigen::Vector2d(row_start(row) + kRowDepth, whole.max().y())};
+  return area_of(row_start(row), whole.min().y(), row_start(row) + kRowDepth, whole.max().y());
 }
 
 std::vector<navvi_types::Place> FloorPlan::places() const {
@@ -206,8 +182,8 @@ std::vector<navvi_types::Place> FloorPlan::places() const {
   };
   for (int i = 0; i < lanes(); ++i)
     if (docked(i))
-      add(Place::Kind::dock, Area(Eigen::Vector2d(lane(i).min().x(), staging_.min().y()),
-                                  Eigen::Vector2d(lane(i).max().x(), staging_.max().y())));
+      add(Place::Kind::dock,
+          area_of(lane(i).min().x(), staging_.min().y(), lane(i).max().x(), staging_.max().y()));
   number = 0;
   for (int block = 0; block < blocks_; ++block)
     for (int i = 0; i < lanes(); ++i)

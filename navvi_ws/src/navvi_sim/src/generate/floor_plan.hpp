@@ -4,13 +4,16 @@
 #include <navvi_types/scenario.hpp>
 #include <vector>
 
-#include "description/random.hpp"
 #include "generate/layout_config.hpp"
 
 namespace navvi_sim::generate {
 
 /// A rectangle on the floor, m, in map.
 using Area = Eigen::AlignedBox2d;
+
+[[nodiscard]] inline Area area_of(double west, double south, double east, double north) {
+  return {Eigen::Vector2d(west, south), Eigen::Vector2d(east, north)};
+}
 
 constexpr double kFlue = 0.3;  // m, between the two racks of a row
 constexpr double kRowDepth = 2.3;

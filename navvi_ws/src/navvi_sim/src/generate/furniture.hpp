@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "description/random.hpp"
 #include "navvi_sim/description/world_description.hpp"
 
 // What a warehouse holds: things by their measures, wherever they come to stand.

@@ -45,27 +45,20 @@ void LayoutHall::add_floor_and_walls() {
   const Eigen::Vector2d floor = outside.sizes() + 2.0 * rim;
   add(things_, "floor", ThingClass::floor, at(0.0, 0.0, 0.0),
       {box_on(0.0, 0.0, -kFloorDepth, floor.x(), floor.y(), kFloorDepth)});
-  add_wall("wall_north", {Eigen::Vector2d(outside.min().x(), hall.max().y()), outside.max()},
-           kWallHeight);
-  add_wall("wall_east",
-           {Eigen::Vector2d(hall.max().x(), hall.min().y()),
-            Eigen::Vector2d(outside.max().x(), hall.max().y())},
-           kWallHeight);
-  add_wall("wall_west",
-           {Eigen::Vector2d(outside.min().x(), hall.min().y()),
-            Eigen::Vector2d(hall.min().x(), hall.max().y())},
-           kWallHeight);
+  const double west = outside.min().x(), east = outside.max().x();
+  const double south = hall.min().y(), north = hall.max().y();
+  add_wall("wall_north", area_of(west, north, east, outside.max().y()));
+  add_wall("wall_east", area_of(hall.max().x(), south, east, north));
+  add_wall("wall_west", area_of(west, south, hall.min().x(), north));
   add_dock_wall(outside);
 }
 
 void LayoutHall::add_dock_wall(const Area& outside) {
-  const Area hall = plan_.hall();
   double west = outside.min().x();
   std::size_t piece = 0;
   const auto wall_to = [&](double east) {
     add_wall(numbered("wall_south", ++piece),
-             {Eigen::Vector2d(west, outside.min().y()), Eigen::Vector2d(east, hall.min().y())},
-             kWallHeight);
+             area_of(west, outside.min().y(), east, plan_.hall().min().y()));
   };
   for (int lane = 0; lane < plan_.lanes(); ++lane) {
     if (!plan_.docked(lane)) continue;
@@ -74,9 +67,7 @@ void LayoutHall::add_dock_wall(const Area& outside) {
     wall_to(way.center().x() - half);
     west = way.center().x() + half;
     add_wall(numbered("dock_door", piece),
-             {Eigen::Vector2d(way.center().x() - half, outside.min().y()),
-              Eigen::Vector2d(west, outside.min().y() + kPanel)},
-             kWallHeight);
+             area_of(way.center().x() - half, outside.min().y(), west, outside.min().y() + kPanel));
     things_.back().shapes.front().look = ThingClass::other;
   }
   wall_to(outside.max().x());
@@ -92,9 +83,7 @@ void LayoutHall::add_inner_walls() {
     const auto wall_to = [&](double north) {
       if (north - south < 1e-6) return;
       add_wall(numbered("wall_inner", ++piece),
-               {Eigen::Vector2d(x - kWallThickness / 2.0, south),
-                Eigen::Vector2d(x + kWallThickness / 2.0, north)},
-               kWallHeight);
+               area_of(x - kWallThickness / 2.0, south, x + kWallThickness / 2.0, north));
     };
     for (int crossing = 0; crossing < plan_.crossings(); ++crossing) {
       if (!plan_.passage_open(row, crossing)) continue;
@@ -115,10 +104,8 @@ void LayoutHall::add_fences() {
       if (plan_.aisle_open(lane, block)) continue;
       const Area aisle = plan_.aisle(lane, block);
       const double y = random_.chance(0.5) ? aisle.min().y() : aisle.max().y() - thickness;
-      add_wall(
-          numbered("fence", ++number),
-          {Eigen::Vector2d(aisle.min().x(), y), Eigen::Vector2d(aisle.max().x(), y + thickness)},
-          kFenceHeight);
+      add_wall(numbered("fence", ++number),
+               area_of(aisle.min().x(), y, aisle.max().x(), y + thickness), kFenceHeight);
     }
   for (int row = 0; row < plan_.rows(); ++row)
     for (int crossing = 0; crossing < plan_.crossings(); ++crossing) {
@@ -126,9 +113,7 @@ void LayoutHall::add_fences() {
       const Area passage = plan_.passage(row, crossing);
       const double x = passage.center().x() - thickness / 2.0;
       add_wall(numbered("fence", ++number),
-               {Eigen::Vector2d(x, passage.min().y()),
-                Eigen::Vector2d(x + thickness, passage.max().y())},
-               kFenceHeight);
+               area_of(x, passage.min().y(), x + thickness, passage.max().y()), kFenceHeight);
     }
 }
 

@@ -24,7 +24,7 @@ class LayoutHall {
   void add_dock_wall(const Area& outside);
   void add_inner_walls();
   void add_fences();
-  void add_wall(const std::string& name, const Area& area, double height);
+  void add_wall(const std::string& name, const Area& area, double height = kWallHeight);
 
   const FloorPlan& plan_;
   Random random_;

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/read/world_source.hpp"
 #include "read/layout_world.hpp"
 #include "temp_folder.hpp"

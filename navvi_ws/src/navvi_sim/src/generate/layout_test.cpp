@@ -9,7 +9,6 @@
 #include <set>
 
 #include "description/validate.hpp"
-#include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/live/world.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "navvi_sim/scenario/scenario.hpp"

@@ -6,7 +6,6 @@
 
 #include <map>
 
-#include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 #include "octomap_tree.hpp"

@@ -6,7 +6,6 @@
 #include <limits>
 #include <navvi_config/reader.hpp>
 
-#include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 
 namespace navvi_sim::live {

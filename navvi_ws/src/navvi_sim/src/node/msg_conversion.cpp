@@ -67,9 +67,9 @@ MarkerArray occupied_cells_msg(const occupancy::OccupancyMap& map, const ros::Ti
   for (int depth = 0; depth <= occupancy::OccupancyMap::kDepth; ++depth) {
     const int side = 1 << (occupancy::OccupancyMap::kDepth - depth);
     depths[side] = array.markers.size();
-    Marker msg = scene::marker_msg("map", depth, Marker::CUBE_LIST, kVoxel);
+    Marker msg = scene::marker_msg("map", depth, Marker::CUBE_LIST, kVoxel,
+                                   Eigen::Vector3d::Constant(side * map.resolution()));
     msg.header.stamp = stamp;
-    msg.scale.x = msg.scale.y = msg.scale.z = side * map.resolution();
     msg.action = Marker::DELETE;
     array.markers.push_back(std::move(msg));
   }

@@ -21,22 +21,118 @@ namespace {
 
 constexpr double kTick = 0.005;  // s, wall clock; shorter than a step, for an even pace
 constexpr int kMostSteps = 10;   // at once after a delay; beyond it the simulation slows down
-constexpr double kJump = 0.25;   // s, of ROS time; longer than any step
 
 class SimNode {
  public:
-  SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded);
+  SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
+      : config_(config),
+        description_(std::move(loaded.world)),
+        map_(setup::map_of(config_, description_)),
+        gate_(config.gate),
+        pacer_(config.life.step, config.rate, kMostSteps) {
+    const scenario::StartAndGoal scenario =
+        setup::scenario_of(config_, description_, setup::voxels_of(config_, description_));
+    session_.emplace(description_, config_.life, scenario.start,
+                     static_cast<std::uint64_t>(config_.seed));
+
+    outlets_.emplace(node_, config_, description_, map_, *session_);
+    if (config_.sensing != "truth") robot_sensors_.emplace(node_, config_, description_, map_);
+    log_world(loaded.notes, scenario);
+    outlets_->publish_static(scenario, robot_sensors_
+                                           ? robot_sensors_->mounts()
+                                           : std::vector<geometry_msgs::TransformStamped>());
+    outlets_->publish_drive_state(drive_state());
+    outlets_->publish_record();
+
+    ros::NodeHandle commands_node;
+    commands_node.setCallbackQueue(&commands_queue_);
+    commands_ = commands_node.subscribe("navvi/command", navvi_safety::kCommandQueue,
+                                        &SimNode::receive, this, navvi_safety::command_transport());
+    if (config_.gate.assistance != "off")
+      near_ = navvi_safety::see_by(
+          commands_node, config_.sensing == "truth" ? "navvi/proximity" : "navvi/seen/proximity",
+          gate_, [this] { return instant(); });
+    zones_ = navvi_safety::limit_by(commands_node, gate_, [this] { return instant(); });
+    clocks_ = commands_node.subscribe("clock", 100, &SimNode::hear_clock, this,
+                                      ros::TransportHints().tcpNoDelay());
+    timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
+  }
 
   /// The exit code of the process.
   [[nodiscard]] int exit_code() const { return exit_code_; }
 
  private:
   void log_world(const std::vector<std::string>& notes,
-                 const scenario::StartAndGoal& scenario) const;
-  void receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& command);
-  void hear_clock(const ros::MessageEvent<const rosgraph_msgs::Clock>& clock);
-  void tick(const ros::WallTimerEvent& event);
-  [[nodiscard]] bool step();
+                 const scenario::StartAndGoal& scenario) const {
+    for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
+    if (!scenario.note.empty()) ROS_WARN("%s", scenario.note.c_str());
+    std::map<std::string, int> standing, moving;
+    for (const Thing& thing : description_.things)
+      ++(thing.route ? moving : standing)[to_string(thing.thing_class)];
+    ROS_INFO("world %s, floor at z = %.3f m", description_.name.c_str(), description_.floor_height);
+    for (const auto& [thing_class, count] : standing)
+      ROS_INFO("  %4d %s standing", count, thing_class.c_str());
+    for (const auto& [thing_class, count] : moving)
+      ROS_INFO("  %4d %s on routes", count, thing_class.c_str());
+    if (robot_sensors_)
+      ROS_INFO(
+          "sensing %s: the guide gets scans, %s and odometry; map -> odom is the simulator's, as "
+          "if a localizer erred nowhere",
+          config_.sensing.c_str(), config_.sensing == "robot" ? "clouds" : "no clouds");
+    ROS_INFO("start %.2f, %.2f heading %.2f rad; goal %.2f, %.2f", scenario.start.position.x(),
+             scenario.start.position.y(), scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
+  }
+
+  void receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& command) {
+    input_.receive(command, instant());
+  }
+
+  /// The world has one clock, its own. With another one, nothing that the guide says can be relied
+  /// on.
+  void hear_clock(const ros::MessageEvent<const rosgraph_msgs::Clock>& clock) {
+    const double stamp = clock.getConstMessage()->clock.toSec(), now = world().now().time;
+    if (!is_another_clock(clock.getPublisherName(), ros::this_node::getName(), stamp, now)) return;
+    gate_.stop(navvi_safety::CommandGate::Reason::clock_jumped);
+    ROS_WARN_THROTTLE(5.0, "clock: %s publishes another time, by %.1f s; the wheels stand",
+                      clock.getPublisherName().c_str(), stamp - now);
+  }
+
+  void tick(const ros::WallTimerEvent&) {
+    const double wall = ros::SteadyTime::now().toSec();
+    const int due = pacer_.due(wall);
+    const long dropped = pacer_.dropped();
+    for (int i = 0; i < due; ++i) {
+      // Commands that came while this process was held up count before their age does. The first of
+      // them finds the gate stopped if they came too late.
+      commands_queue_.callAvailable();
+      if (!step()) return;
+    }
+    if (due == kMostSteps && dropped > 0)
+      ROS_WARN_THROTTLE(5.0, "the simulation is slower than asked for: %ld steps let go so far",
+                        dropped);
+  }
+
+  [[nodiscard]] bool step() {
+    const navvi_types::Velocity wheels = gate_.update(instant());
+    const bool running = gate_.state() == navvi_safety::CommandGate::State::running;
+    const live::World::Status status =
+        session_->step(wheels, running ? physics::Braking::normal : physics::Braking::emergency);
+    if (status != live::World::Status::running) {
+      ROS_FATAL("the simulation has stopped at %.2f s: a number in it is not finite",
+                world().now().time);
+      exit_code_ = 3;
+      timer_.stop();
+      ros::requestShutdown();
+      return false;
+    }
+    outlets_->publish_state();
+    if (robot_sensors_) robot_sensors_->publish(*session_);
+    outlets_->publish_drive_state(drive_state());
+    link_.publish(gate_, instant().wall, world().now().stamp());
+    outlets_->publish_record();
+    return true;
+  }
+
   [[nodiscard]] navvi_types::DriveState drive_state() const {
     return gate_.drive_state(world().now().stamp());
   }
@@ -62,111 +158,6 @@ class SimNode {
   ros::Subscriber commands_, near_, zones_, clocks_;
   ros::WallTimer timer_;
 };
-
-SimNode::SimNode(const setup::SimNodeConfig& config, read::LoadedWorld loaded)
-    : config_(config),
-      description_(std::move(loaded.world)),
-      map_(setup::map_of(config_, description_)),
-      gate_(config.gate),
-      pacer_(config.life.step, config.rate, kMostSteps) {
-  const scenario::StartAndGoal scenario = setup::scenario_of(
-      config_, description_, setup::voxels_of(config_, description_));
-  session_.emplace(description_, config_.life, scenario.start,
-                   static_cast<std::uint64_t>(config_.seed));
-
-  outlets_.emplace(node_, config_, description_, map_, *session_);
-  if (config_.sensing != "truth") robot_sensors_.emplace(node_, config_, description_, map_);
-  log_world(loaded.notes, scenario);
-  outlets_->publish_static(scenario, robot_sensors_
-                                         ? robot_sensors_->mounts()
-                                         : std::vector<geometry_msgs::TransformStamped>());
-  outlets_->publish_drive_state(drive_state());
-  outlets_->publish_record();
-
-  ros::NodeHandle commands_node;
-  commands_node.setCallbackQueue(&commands_queue_);
-  commands_ = commands_node.subscribe("navvi/command", navvi_safety::kCommandQueue, &SimNode::receive,
-                                      this, navvi_safety::command_transport());
-  if (config_.gate.assistance != "off")
-    near_ = navvi_safety::see_by(
-        commands_node, config_.sensing == "truth" ? "navvi/proximity" : "navvi/seen/proximity",
-        gate_, [this] { return instant(); });
-  zones_ = navvi_safety::limit_by(commands_node, gate_, [this] { return instant(); });
-  clocks_ = commands_node.subscribe("clock", 100, &SimNode::hear_clock, this,
-                                    ros::TransportHints().tcpNoDelay());
-  timer_ = node_.createWallTimer(ros::WallDuration(kTick), &SimNode::tick, this);
-}
-
-void SimNode::log_world(const std::vector<std::string>& notes,
-                        const scenario::StartAndGoal& scenario) const {
-  for (const std::string& note : notes) ROS_WARN("%s", note.c_str());
-  if (!scenario.note.empty()) ROS_WARN("%s", scenario.note.c_str());
-  std::map<std::string, int> standing, moving;
-  for (const Thing& thing : description_.things)
-    ++(thing.route ? moving : standing)[to_string(thing.thing_class)];
-  ROS_INFO("world %s, floor at z = %.3f m", description_.name.c_str(), description_.floor_height);
-  for (const auto& [thing_class, count] : standing)
-    ROS_INFO("  %4d %s standing", count, thing_class.c_str());
-  for (const auto& [thing_class, count] : moving)
-    ROS_INFO("  %4d %s on routes", count, thing_class.c_str());
-  if (robot_sensors_)
-    ROS_INFO(
-        "sensing %s: the guide gets scans, %s and odometry; map -> odom is the simulator's, as "
-        "if a localizer erred nowhere",
-        config_.sensing.c_str(), config_.sensing == "robot" ? "clouds" : "no clouds");
-  ROS_INFO("start %.2f, %.2f heading %.2f rad; goal %.2f, %.2f", scenario.start.position.x(),
-           scenario.start.position.y(), scenario.start.yaw, scenario.goal.x(), scenario.goal.y());
-}
-
-void SimNode::receive(const ros::MessageEvent<const geometry_msgs::TwistStamped>& command) {
-  input_.receive(command, instant());
-}
-
-/// The world has one clock, its own. With another one, nothing that the guide says can be relied
-/// on.
-void SimNode::hear_clock(const ros::MessageEvent<const rosgraph_msgs::Clock>& clock) {
-  const double stamp = clock.getConstMessage()->clock.toSec(), now = world().now().time;
-  if (!is_another_clock(clock.getPublisherName(), ros::this_node::getName(), stamp, now)) return;
-  gate_.stop(navvi_safety::CommandGate::Reason::clock_jumped);
-  ROS_WARN_THROTTLE(5.0, "clock: %s publishes another time, by %.1f s; the wheels stand",
-                    clock.getPublisherName().c_str(), stamp - now);
-}
-
-void SimNode::tick(const ros::WallTimerEvent&) {
-  const double wall = ros::SteadyTime::now().toSec();
-  const int due = pacer_.due(wall);
-  const long dropped = pacer_.dropped();
-  for (int i = 0; i < due; ++i) {
-    // Commands that came while this process was held up count before their age does. The first of
-    // them finds the gate stopped if they came too late.
-    commands_queue_.callAvailable();
-    if (!step()) return;
-  }
-  if (due == kMostSteps && dropped > 0)
-    ROS_WARN_THROTTLE(5.0, "the simulation is slower than asked for: %ld steps let go so far",
-                      dropped);
-}
-
-bool SimNode::step() {
-  const navvi_types::Velocity wheels = gate_.update(instant());
-  const bool running = gate_.state() == navvi_safety::CommandGate::State::running;
-  const live::World::Status status =
-      session_->step(wheels, running ? physics::Braking::normal : physics::Braking::emergency);
-  if (status != live::World::Status::running) {
-    ROS_FATAL("the simulation has stopped at %.2f s: a number in it is not finite",
-              world().now().time);
-    exit_code_ = 3;
-    timer_.stop();
-    ros::requestShutdown();
-    return false;
-  }
-  outlets_->publish_state();
-  if (robot_sensors_) robot_sensors_->publish(*session_);
-  outlets_->publish_drive_state(drive_state());
-  link_.publish(gate_, instant().wall, world().now().stamp());
-  outlets_->publish_record();
-  return true;
-}
 
 /// \throws ConfigError with a sentence on the world that was chosen
 int run(const setup::SimNodeConfig& config) try {

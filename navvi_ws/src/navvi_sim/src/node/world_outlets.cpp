@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <navvi_types/msg_conversion.hpp>
 
-#include "navvi_sim/description/world_hash.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/node/msg_conversion.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 

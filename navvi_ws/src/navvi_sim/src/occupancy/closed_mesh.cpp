@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+#include <navvi_types/disjoint_sets.hpp>
 #include <utility>
 
 namespace navvi_sim::occupancy {
@@ -74,25 +74,20 @@ std::vector<ClosedMesh> closed_parts(const std::vector<Triangle>& triangles) {
     }
     indices.push_back(index);
   }
-  std::vector<std::size_t> part(corners.size());
-  std::iota(part.begin(), part.end(), std::size_t{0});
-  const auto root = [&](std::size_t corner) {
-    while (part[corner] != corner) corner = part[corner] = part[part[corner]];
-    return corner;
-  };
+  navvi_types::DisjointSets<std::size_t> joined(corners.size());
   std::map<std::pair<std::size_t, std::size_t>, int> sides;
   for (const auto& index : indices)
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t a = index[i];
       const std::size_t b = index[(i + 1) % 3];
-      part[root(a)] = root(b);
+      joined.unite(a, b);
       ++sides[std::minmax(a, b)];
     }
   std::map<std::size_t, std::vector<Triangle>> parts;
   for (std::size_t i = 0; i < triangles.size(); ++i)
-    parts[root(indices[i][0])].push_back(triangles[i]);
+    parts[joined.root(indices[i][0])].push_back(triangles[i]);
   for (const auto& [side, count] : sides)
-    if (count % 2 == 1) parts.erase(root(side.first));
+    if (count % 2 == 1) parts.erase(joined.root(side.first));
   std::vector<ClosedMesh> closed;
   for (auto& [corner, surface] : parts) closed.emplace_back(std::move(surface));
   return closed;

@@ -20,6 +20,19 @@ double length_of(const Eigen::Vector3d& v) { return v.cwiseAbs().sum(); }
 double nearest(double centre, double half) { return std::max(0.0, std::abs(centre) - half); }
 double farthest(double centre, double half) { return std::abs(centre) + half; }
 
+template <typename Body>
+Octants one_by_one(const Body& body, const Cell& cell, double shrink) {
+  Octants all{0U, 0U};
+  for (unsigned i = 0; i < 8; ++i) {
+    Cell eighth = octant(cell, i);
+    eighth.half -= shrink;
+    const Overlap part = body.overlap(eighth);
+    if (part != Overlap::none) all.touched |= 1U << i;
+    if (part == Overlap::full) all.full |= 1U << i;
+  }
+  return all;
+}
+
 }  // namespace
 
 TurnedBox::TurnedBox(const Eigen::Vector3d& size, const Eigen::Isometry3d& pose) {
@@ -79,23 +92,6 @@ Overlap Triangle::overlap(const Cell& cell) const {
       if (apart(Eigen::Vector3d::Unit(axis).cross(edge), length_of(edge))) return Overlap::none;
   return Overlap::partial;
 }
-
-namespace {
-
-template <typename Body>
-Octants one_by_one(const Body& body, const Cell& cell, double shrink) {
-  Octants all{0U, 0U};
-  for (unsigned i = 0; i < 8; ++i) {
-    Cell eighth = octant(cell, i);
-    eighth.half -= shrink;
-    const Overlap part = body.overlap(eighth);
-    if (part != Overlap::none) all.touched |= 1U << i;
-    if (part == Overlap::full) all.full |= 1U << i;
-  }
-  return all;
-}
-
-}  // namespace
 
 Octants octants(const Solid& solid, const Cell& cell, double shrink) {
   if (const auto* box = std::get_if<TurnedBox>(&solid)) return one_by_one(*box, cell, shrink);

@@ -1,7 +1,6 @@
 #include "read/sdf_geometry.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
 

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "description/hash.hpp"
-#include "description/random.hpp"
 #include "read/sdf_value.hpp"
 
 namespace navvi_sim::read {

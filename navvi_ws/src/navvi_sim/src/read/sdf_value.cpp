@@ -1,6 +1,5 @@
 #include "read/sdf_value.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <sstream>

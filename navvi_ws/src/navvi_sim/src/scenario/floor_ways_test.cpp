@@ -5,7 +5,6 @@
 #include <map>
 #include <queue>
 
-#include "description/random.hpp"
 #include "navvi_sim/occupancy/occupancy.hpp"
 
 namespace navvi_sim::scenario {

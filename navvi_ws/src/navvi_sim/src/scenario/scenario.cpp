@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "description/footprint.hpp"
-#include "description/random.hpp"
 #include "description/sentence.hpp"
 #include "scenario/free_places.hpp"
 
@@ -61,32 +60,153 @@ class ScenarioSampler {
         random_(seed) {}
 
   [[nodiscard]] StartAndGoal with_start(const Pose2& start,
-                                        const std::optional<Eigen::Vector2d>& goal);
-  [[nodiscard]] StartAndGoal with_goal(const Eigen::Vector2d& goal);
-  [[nodiscard]] StartAndGoal with_nothing();
+                                        const std::optional<Eigen::Vector2d>& goal) {
+    const std::size_t root = checked(start);
+    const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
+    if (goal) {
+      const std::size_t end = goal->allFinite() ? ways_.cell_at(*goal) : FloorWays::kNone;
+      const bool joined = end != FloorWays::kNone && std::isfinite(ways.length[end]);
+      return {start, *goal, joined ? length(ways, end) : 0.0};
+    }
+    const std::size_t end = draw(ways, {places_.quiet(), places_.all(), anywhere()}, "goal");
+    return {start, ways_.centre(end), length(ways, end)};
+  }
+
+  [[nodiscard]] StartAndGoal with_goal(const Eigen::Vector2d& goal) {
+    const Places starts = places_.away_from_movers(places_.all());
+    const std::size_t root = goal.allFinite() ? ways_.cell_at(goal) : FloorWays::kNone;
+    if (root == FloorWays::kNone || ways_.clearance(root) < config_.robot_radius) {
+      // Navigation refuses such a goal; the start may then be anywhere.
+      const Eigen::Vector2d place = ways_.centre(starts[random_.below(starts.size())]);
+      return {{place, 0.0}, goal};
+    }
+    const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
+    const std::size_t start =
+        draw(ways, {places_.away_from_movers(places_.quiet()), starts, anywhere()}, "start");
+    return {looking_back(ways, start), goal, length(ways, start)};
+  }
+
+  [[nodiscard]] StartAndGoal with_nothing() {
+    std::optional<StartAndGoal> scenario = between(places_.quiet());
+    if (!scenario && places_.quiet().size() < places_.all().size())
+      scenario = between(places_.all());
+    if (!scenario)
+      throw WorldError("world '" + world_.name +
+                       "' has no place for a start that is connected to one for a goal" +
+                       asked_for());
+    return *scenario;
+  }
+
   /// Where the ends of a route lie, if that is odd; else empty.
-  [[nodiscard]] std::string note_on(const StartAndGoal& drawn) const;
+  [[nodiscard]] std::string note_on(const StartAndGoal& drawn) const {
+    const double apart = (drawn.goal - drawn.start.position).norm();
+    if (apart < kNoRoute || (drawn.route_length > 0.0 && drawn.route_length < kLeastRoute))
+      return "start and goal are " + text(std::round(100.0 * apart) / 100.0) +
+             " m apart, too near for a trial";
+    const Polygon& hull = places_.hull();
+    if (hull.empty()) return {};
+    std::string who;
+    if (!lies_in(hull, drawn.start.position)) who = "the start lies";
+    if (!lies_in(hull, drawn.goal)) who = who.empty() ? "the goal lies" : "start and goal lie";
+    return who.empty() ? who : who + " outside of everything that stands in this world";
+  }
 
  private:
   using Places = FreePlaces::Places;
 
   /// Both ends drawn from `places`; nullopt if no route leads between any that were tried.
-  [[nodiscard]] std::optional<StartAndGoal> between(const Places& places);
+  [[nodiscard]] std::optional<StartAndGoal> between(const Places& places) {
+    if (places.empty()) return std::nullopt;
+    const Places starts = places_.away_from_movers(places);
+    std::optional<StartAndGoal> best;
+    const double enough = asks_for_route() ? 0.0 : kUsualRoute;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const std::size_t root = places[random_.below(places.size())];
+      const FloorWays::Ways ways = ways_.ways_from(root, clear());
+      const std::size_t start = try_draw(ways, starts);
+      if (start == FloorWays::kNone || (best && length(ways, start) <= best->route_length))
+        continue;
+      best = {looking_back(ways, start), ways_.centre(root), length(ways, start)};
+      if (best->route_length >= enough) break;
+    }
+    return best;
+  }
+
   /// Those of `places` at the end of a way that is neither too short nor too long. Where no length
   /// is asked for, a small world has some at 0.8 of the longest way to a free place.
-  [[nodiscard]] Places ends_of(const FloorWays::Ways& ways, const Places& places);
+  [[nodiscard]] Places ends_of(const FloorWays::Ways& ways, const Places& places) {
+    double longest = 0.0;
+    for (const std::size_t place : places)
+      if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
+    longest_ = std::max(longest_, longest);
+    const double least =
+        asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
+    const double most = config_.max_route > 0.0 ? config_.max_route : longest;
+    return those(places, [&](std::size_t place) {
+      return std::isfinite(ways.length[place]) && length(ways, place) >= least &&
+             length(ways, place) <= most;
+    });
+  }
+
   /// One of `places` to which a way leads as asked for; kNone if none was found.
-  [[nodiscard]] std::size_t try_draw(const FloorWays::Ways& ways, const Places& places);
+  [[nodiscard]] std::size_t try_draw(const FloorWays::Ways& ways, const Places& places) {
+    const Places ends = ends_of(ways, places);
+    return ends.empty() ? FloorWays::kNone : ends[random_.below(ends.size())];
+  }
+
   /// \param choices  of places, the better ones first
   [[nodiscard]] std::size_t draw(const FloorWays::Ways& ways, const std::vector<Places>& choices,
-                                 const std::string& what);
+                                 const std::string& what) {
+    for (const Places& places : choices) {
+      const std::size_t end = try_draw(ways, places);
+      if (end != FloorWays::kNone) return end;
+    }
+    throw WorldError("world '" + world_.name + "' has no free place for a " + what +
+                     " that is connected to what was given" + asked_for());
+  }
 
   /// The cell of a start that was given. \throws WorldError if no robot can stand there
-  [[nodiscard]] std::size_t checked(const Pose2& start) const;
+  [[nodiscard]] std::size_t checked(const Pose2& start) const {
+    const std::string who = "start (" + text(start.position.x()) + ", " + text(start.position.y()) +
+                            ", " + text(start.yaw) + ")";
+    if (!start.position.allFinite() || !std::isfinite(start.yaw))
+      throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
+    const std::size_t cell = ways_.cell_at(start.position);
+    if (cell == FloorWays::kNone || ways_.clearance(cell) <= 0.0) {
+      const double floor = world_.floor_height + ways_.floor().cell_size() / 2.0;
+      const std::string thing =
+          thing_at(world_, start.position, floor, world_.floor_height + config_.robot_height);
+      throw WorldError(who + (thing.empty() ? " is off the floor" : " is in '" + thing + "'") +
+                       " of world '" + world_.name + "'; allowed is free floor");
+    }
+    if (ways_.clearance(cell) + ways_.floor().cell_size() < config_.robot_radius)
+      throw WorldError(who + " is " + text(ways_.clearance(cell)) +
+                       " m from a thing or the floor's edge; allowed is the robot's radius of " +
+                       text(config_.robot_radius) + " m or more");
+    return cell;
+  }
+
   /// The pose in `cell` that looks along the way back to where the ways begin.
-  [[nodiscard]] Pose2 looking_back(const FloorWays::Ways& ways, std::size_t cell) const;
+  [[nodiscard]] Pose2 looking_back(const FloorWays::Ways& ways, std::size_t cell) const {
+    const Eigen::Vector2d place = ways_.centre(cell);
+    std::size_t ahead = cell;
+    while (static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead) {
+      const std::size_t next = ways_.before(ways, ahead);
+      if (next == FloorWays::kNone) break;
+      ahead = next;
+    }
+    const Eigen::Vector2d view = ways_.centre(ahead) - place;
+    return {place, std::atan2(view.y(), view.x())};
+  }
+
   /// What was asked of the route, for a sentence.
-  [[nodiscard]] std::string asked_for() const;
+  [[nodiscard]] std::string asked_for() const {
+    if (!asks_for_route()) return "";
+    std::string words = " by a route of " + text(config_.min_route) + " m or more";
+    if (config_.max_route > 0.0) words += " and up to " + text(config_.max_route) + " m";
+    return words + " (the longest that was found has " + text(std::round(longest_)) + " m)";
+  }
+
   [[nodiscard]] bool asks_for_route() const {
     return config_.min_route > 0.0 || config_.max_route > 0.0;
   }
@@ -106,140 +226,6 @@ class ScenarioSampler {
   Random random_;
   double longest_ = 0.0;  ///< m, of the ways seen so far
 };
-
-StartAndGoal ScenarioSampler::with_start(const Pose2& start,
-                                         const std::optional<Eigen::Vector2d>& goal) {
-  const std::size_t root = checked(start);
-  const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
-  if (goal) {
-    const std::size_t end = goal->allFinite() ? ways_.cell_at(*goal) : FloorWays::kNone;
-    const bool joined = end != FloorWays::kNone && std::isfinite(ways.length[end]);
-    return {start, *goal, joined ? length(ways, end) : 0.0};
-  }
-  const std::size_t end = draw(ways, {places_.quiet(), places_.all(), anywhere()}, "goal");
-  return {start, ways_.centre(end), length(ways, end)};
-}
-
-StartAndGoal ScenarioSampler::with_goal(const Eigen::Vector2d& goal) {
-  const Places starts = places_.away_from_movers(places_.all());
-  const std::size_t root = goal.allFinite() ? ways_.cell_at(goal) : FloorWays::kNone;
-  if (root == FloorWays::kNone || ways_.clearance(root) < config_.robot_radius) {
-    // Navigation refuses such a goal; the start may then be anywhere.
-    const Eigen::Vector2d place = ways_.centre(starts[random_.below(starts.size())]);
-    return {{place, 0.0}, goal};
-  }
-  const FloorWays::Ways ways = ways_.ways_from(root, passable(root));
-  const std::size_t start =
-      draw(ways, {places_.away_from_movers(places_.quiet()), starts, anywhere()}, "start");
-  return {looking_back(ways, start), goal, length(ways, start)};
-}
-
-StartAndGoal ScenarioSampler::with_nothing() {
-  std::optional<StartAndGoal> scenario = between(places_.quiet());
-  if (!scenario && places_.quiet().size() < places_.all().size()) scenario = between(places_.all());
-  if (!scenario)
-    throw WorldError("world '" + world_.name +
-                     "' has no place for a start that is connected to one for a goal" +
-                     asked_for());
-  return *scenario;
-}
-
-std::optional<StartAndGoal> ScenarioSampler::between(const Places& places) {
-  if (places.empty()) return std::nullopt;
-  const Places starts = places_.away_from_movers(places);
-  std::optional<StartAndGoal> best;
-  const double enough = asks_for_route() ? 0.0 : kUsualRoute;
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const std::size_t root = places[random_.below(places.size())];
-    const FloorWays::Ways ways = ways_.ways_from(root, clear());
-    const std::size_t start = try_draw(ways, starts);
-    if (start == FloorWays::kNone || (best && length(ways, start) <= best->route_length)) continue;
-    best = {looking_back(ways, start), ways_.centre(root), length(ways, start)};
-    if (best->route_length >= enough) break;
-  }
-  return best;
-}
-
-std::size_t ScenarioSampler::checked(const Pose2& start) const {
-  const std::string who = "start (" + text(start.position.x()) + ", " + text(start.position.y()) +
-                          ", " + text(start.yaw) + ")";
-  if (!start.position.allFinite() || !std::isfinite(start.yaw))
-    throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
-  const std::size_t cell = ways_.cell_at(start.position);
-  if (cell == FloorWays::kNone || ways_.clearance(cell) <= 0.0) {
-    const double floor = world_.floor_height + ways_.floor().cell_size() / 2.0;
-    const std::string thing =
-        thing_at(world_, start.position, floor, world_.floor_height + config_.robot_height);
-    throw WorldError(who + (thing.empty() ? " is off the floor" : " is in '" + thing + "'") +
-                     " of world '" + world_.name + "'; allowed is free floor");
-  }
-  if (ways_.clearance(cell) + ways_.floor().cell_size() < config_.robot_radius)
-    throw WorldError(who + " is " + text(ways_.clearance(cell)) +
-                     " m from a thing or the floor's edge; allowed is the robot's radius of " +
-                     text(config_.robot_radius) + " m or more");
-  return cell;
-}
-
-std::string ScenarioSampler::asked_for() const {
-  if (!asks_for_route()) return "";
-  std::string words = " by a route of " + text(config_.min_route) + " m or more";
-  if (config_.max_route > 0.0) words += " and up to " + text(config_.max_route) + " m";
-  return words + " (the longest that was found has " + text(std::round(longest_)) + " m)";
-}
-
-ScenarioSampler::Places ScenarioSampler::ends_of(const FloorWays::Ways& ways,
-                                                 const Places& places) {
-  double longest = 0.0;
-  for (const std::size_t place : places)
-    if (std::isfinite(ways.length[place])) longest = std::max(longest, length(ways, place));
-  longest_ = std::max(longest_, longest);
-  const double least = asks_for_route() ? config_.min_route : std::min(kUsualRoute, 0.8 * longest);
-  const double most = config_.max_route > 0.0 ? config_.max_route : longest;
-  return those(places, [&](std::size_t place) {
-    return std::isfinite(ways.length[place]) && length(ways, place) >= least &&
-           length(ways, place) <= most;
-  });
-}
-
-std::size_t ScenarioSampler::try_draw(const FloorWays::Ways& ways, const Places& places) {
-  const Places ends = ends_of(ways, places);
-  return ends.empty() ? FloorWays::kNone : ends[random_.below(ends.size())];
-}
-
-std::size_t ScenarioSampler::draw(const FloorWays::Ways& ways, const std::vector<Places>& choices,
-                                  const std::string& what) {
-  for (const Places& places : choices) {
-    const std::size_t end = try_draw(ways, places);
-    if (end != FloorWays::kNone) return end;
-  }
-  throw WorldError("world '" + world_.name + "' has no free place for a " + what +
-                   " that is connected to what was given" + asked_for());
-}
-
-Pose2 ScenarioSampler::looking_back(const FloorWays::Ways& ways, std::size_t cell) const {
-  const Eigen::Vector2d place = ways_.centre(cell);
-  std::size_t ahead = cell;
-  while (static_cast<double>(ways.length[cell] - ways.length[ahead]) < kLookAhead) {
-    const std::size_t next = ways_.before(ways, ahead);
-    if (next == FloorWays::kNone) break;
-    ahead = next;
-  }
-  const Eigen::Vector2d view = ways_.centre(ahead) - place;
-  return {place, std::atan2(view.y(), view.x())};
-}
-
-std::string ScenarioSampler::note_on(const StartAndGoal& drawn) const {
-  const double apart = (drawn.goal - drawn.start.position).norm();
-  if (apart < kNoRoute || (drawn.route_length > 0.0 && drawn.route_length < kLeastRoute))
-    return "start and goal are " + text(std::round(100.0 * apart) / 100.0) +
-           " m apart, too near for a trial";
-  const Polygon& hull = places_.hull();
-  if (hull.empty()) return {};
-  std::string who;
-  if (!lies_in(hull, drawn.start.position)) who = "the start lies";
-  if (!lies_in(hull, drawn.goal)) who = who.empty() ? "the goal lies" : "start and goal lie";
-  return who.empty() ? who : who + " outside of everything that stands in this world";
-}
 
 }  // namespace
 

@@ -58,10 +58,8 @@ std::vector<Marker> CubeLists::markers(std::size_t most,
   for (std::size_t i = 0; i < ordered.size(); ++i) {
     const List& list = ordered[i];
     if (i < most) {
-      Marker msg = marker_msg(list.ns, next_id[list.ns]++, Marker::CUBE_LIST, list.color);
-      msg.scale.x = list.size.x();
-      msg.scale.y = list.size.y();
-      msg.scale.z = list.size.z();
+      Marker msg =
+          marker_msg(list.ns, next_id[list.ns]++, Marker::CUBE_LIST, list.color, list.size);
       for (const Eigen::Vector3d& centre : list.centres) msg.points.push_back(point_msg(centre));
       markers.push_back(std::move(msg));
       continue;

@@ -52,14 +52,6 @@ std_msgs::ColorRGBA color_msg(const Color& color, float brightness) {
   return msg;
 }
 
-geometry_msgs::Point point_msg(const Eigen::Vector3d& point) {
-  geometry_msgs::Point msg;
-  msg.x = point.x();
-  msg.y = point.y();
-  msg.z = point.z();
-  return msg;
-}
-
 geometry_msgs::Pose pose_msg(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond rotation = Eigen::Quaterniond(pose.linear()).normalized();
   geometry_msgs::Pose msg;
@@ -71,7 +63,8 @@ geometry_msgs::Pose pose_msg(const Eigen::Isometry3d& pose) {
   return msg;
 }
 
-visualization_msgs::Marker marker_msg(const std::string& ns, int id, int type, const Color& color) {
+visualization_msgs::Marker marker_msg(const std::string& ns, int id, int type, const Color& color,
+                                      const Eigen::Vector3d& scale) {
   visualization_msgs::Marker msg;
   msg.header.frame_id = "map";
   msg.ns = ns;
@@ -79,7 +72,9 @@ visualization_msgs::Marker marker_msg(const std::string& ns, int id, int type, c
   msg.type = type;
   msg.action = visualization_msgs::Marker::ADD;
   msg.pose.orientation.w = 1.0;
-  msg.scale.x = msg.scale.y = msg.scale.z = 1.0;
+  msg.scale.x = scale.x();
+  msg.scale.y = scale.y();
+  msg.scale.z = scale.z();
   msg.color = color_msg(color);
   return msg;
 }

@@ -4,12 +4,15 @@
 #include <visualization_msgs/Marker.h>
 
 #include <Eigen/Geometry>
+#include <navvi_types/msg_conversion.hpp>
 #include <string>
 #include <vector>
 
 #include "navvi_sim/description/world_description.hpp"
 
 namespace navvi_sim::scene {
+
+using navvi_types::point_msg;
 
 struct Color {
   float r, g, b;
@@ -19,11 +22,11 @@ struct Color {
 [[nodiscard]] Color color_of(ThingClass thing_class);
 
 [[nodiscard]] std_msgs::ColorRGBA color_msg(const Color& color, float brightness = 1.0F);
-[[nodiscard]] geometry_msgs::Point point_msg(const Eigen::Vector3d& point);
 [[nodiscard]] geometry_msgs::Pose pose_msg(const Eigen::Isometry3d& pose);
-/// In the frame map, without a stamp.
-[[nodiscard]] visualization_msgs::Marker marker_msg(const std::string& ns, int id, int type,
-                                                    const Color& color);
+/// In the frame map, without a stamp. \param scale  m, in a list of triangles a factor
+[[nodiscard]] visualization_msgs::Marker marker_msg(
+    const std::string& ns, int id, int type, const Color& color,
+    const Eigen::Vector3d& scale = Eigen::Vector3d::Ones());
 
 /// Adds shapes to a TRIANGLE_LIST, a colour a triangle. RViz draws such a list unlit, so that a
 /// colour is what it says from every side; a little shading by direction makes faces distinct.

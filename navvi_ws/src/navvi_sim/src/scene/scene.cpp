@@ -171,28 +171,22 @@ Scene::Parts Scene::parts_of(const Thing& thing, std::map<std::string, int>& nex
     const std::string ns = to_string(thing.thing_class);
     Eigen::AlignedBox3d bounds;
     for (const Shape& shape : thing.shapes) bounds.extend(bounds_of(shape.geometry, shape.pose));
-    Marker msg = marker_msg(ns, next_id[ns]++, Marker::MESH_RESOURCE, {0.0F, 0.0F, 0.0F});
+    Marker msg =
+        marker_msg(ns, next_id[ns]++, Marker::MESH_RESOURCE, {0.0F, 0.0F, 0.0F}, bounds.sizes());
     msg.color.a = 0.0F;  // no tint: the model's own colours
     msg.mesh_resource = *model;
     msg.mesh_use_embedded_materials = true;
-    msg.scale.x = bounds.sizes().x();
-    msg.scale.y = bounds.sizes().y();
-    msg.scale.z = bounds.sizes().z();
     parts.push_back({std::move(msg), Eigen::Isometry3d(Eigen::Translation3d(bounds.center()))});
     return parts;
   }
   for (const Shape& shape : thing.shapes) {
     const ThingClass look = look_of(thing, shape);
     const std::string ns = to_string(look);
-    Marker msg = marker_msg(ns, next_id[ns]++, Marker::TRIANGLE_LIST, color_of(look));
-    if (const auto* box = std::get_if<Box>(&shape.geometry)) {
-      msg.type = Marker::CUBE;
-      msg.scale.x = box->size.x();
-      msg.scale.y = box->size.y();
-      msg.scale.z = box->size.z();
-    } else {
+    const auto* box = std::get_if<Box>(&shape.geometry);
+    Marker msg = marker_msg(ns, next_id[ns]++, box ? int{Marker::CUBE} : int{Marker::TRIANGLE_LIST},
+                            color_of(look), box ? box->size : Eigen::Vector3d::Ones());
+    if (!box)
       Painter(msg, color_of(look), kNoCut).shape(shape.geometry, Eigen::Isometry3d::Identity());
-    }
     parts.push_back({std::move(msg), shape.pose});
   }
   return parts;
@@ -245,13 +239,12 @@ const MarkerArray& Scene::moving(const live::Snapshot& now, const ros::Time& sta
 }
 
 Scene::Parts Scene::parts_of(const physics::RobotConfig& robot) {
-  Marker body = marker_msg("robot", 0, Marker::CYLINDER, kRobot);
-  body.scale.x = body.scale.y = 2.0 * robot.radius;
-  body.scale.z = robot.height;
+  const double r = robot.radius;
+  const Marker body =
+      marker_msg("robot", 0, Marker::CYLINDER, kRobot, {2.0 * r, 2.0 * r, robot.height});
 
   // A flat arrow head over the lid, its tip over the rim, shows the heading.
   Marker nose = marker_msg("robot", 1, Marker::TRIANGLE_LIST, kNose);
-  const double r = robot.radius;
   Painter(nose, kNose, kNoCut)
       .triangle({1.5 * r, 0.0, 0.0}, {-0.6 * r, 0.75 * r, 0.0}, {-0.6 * r, -0.75 * r, 0.0});
   const auto above = [](double z) { return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); };

@@ -4,7 +4,7 @@
 #include <navvi_files/bytes.hpp>
 #include <navvi_floor/map_survey.hpp>
 
-#include "navvi_sim/description/world_hash.hpp"
+#include "navvi_sim/description/world_description.hpp"
 #include "scenario/floor_ways.hpp"
 
 namespace navvi_sim::setup {

@@ -4,8 +4,6 @@
 
 #include <navvi_config/reader.hpp>
 
-#include "navvi_sim/description/world_hash.hpp"
-
 namespace navvi_sim::setup {
 namespace {
 

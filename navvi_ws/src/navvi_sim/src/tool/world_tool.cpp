@@ -9,12 +9,11 @@
 #include <map>
 #include <navvi_config/reader.hpp>
 #include <navvi_files/json.hpp>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <sstream>
 
 #include "description/floor_height.hpp"
 #include "description/footprint.hpp"
-#include "navvi_sim/description/world_hash.hpp"
 #include "navvi_sim/setup/sim_node_config.hpp"
 #include "occupancy/octree.hpp"
 #include "read/layout_world.hpp"

@@ -1,7 +1,6 @@
 #include "traffic/driver.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "description/hash.hpp"
 

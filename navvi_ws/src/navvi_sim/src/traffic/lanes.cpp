@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "traffic/lane_ground.hpp"
 #include "traffic/waiting_zones.hpp"
@@ -41,39 +42,14 @@ double corner_radius(ThingClass thing_class) {
   }
 }
 
-bool operator<(const Waypoint& a, const Waypoint& b) {
-  const auto key = [](const Waypoint& w) {
-    return std::array<double, 4>{w.at.x(), w.at.y(), w.pause, w.speed};
-  };
-  return key(a) < key(b);
+std::array<double, 4> values_of(const Waypoint& waypoint) {
+  return {waypoint.at.x(), waypoint.at.y(), waypoint.pause, waypoint.speed};
 }
 
-/// Equal for things that drive the same round in the same direction and may follow each other.
-struct RoundKey {
-  ThingClass thing_class;
-  double speed;
-  std::vector<Waypoint> waypoints;  ///< beginning with the least
-  std::size_t alone;                ///< for a thing that shares its track with none
-
-  bool operator<(const RoundKey& other) const {
-    if (thing_class != other.thing_class) return thing_class < other.thing_class;
-    if (speed != other.speed) return speed < other.speed;
-    if (alone != other.alone) return alone < other.alone;
-    return std::lexicographical_compare(
-        waypoints.begin(), waypoints.end(), other.waypoints.begin(), other.waypoints.end(),
-        [](const Waypoint& a, const Waypoint& b) { return traffic::operator<(a, b); });
-  }
-};
-
-RoundKey round_key(const Thing& thing, std::size_t id) {
-  RoundKey key{thing.thing_class, thing.route->speed, thing.route->waypoints, 0};
-  if (!thing.route->loop || thing.route->delay > 0.0) key.alone = id + 1;
-  const auto least = std::min_element(
-      key.waypoints.begin(), key.waypoints.end(),
-      [](const Waypoint& a, const Waypoint& b) { return traffic::operator<(a, b); });
-  std::rotate(key.waypoints.begin(), least, key.waypoints.end());
-  return key;
-}
+/// Equal for things that drive the same round in the same direction and may follow each other:
+/// their class, their speed, way-points beginning with the least, and for a thing that shares its
+/// track with none a number of its own.
+using RoundKey = std::tuple<ThingClass, double, std::size_t, std::vector<std::array<double, 4>>>;
 
 Footprint footprint_at(const Thing& thing) { return footprint_of(thing, tilt_of(thing.pose)); }
 
@@ -94,8 +70,20 @@ class LaneBuilder {
   LaneBuilder(const WorldDescription& world, const MoversConfig& config)
       : world_(world), config_(config) {}
 
-  Lanes build();
-  std::vector<Polygon> ground();
+  Lanes build() {
+    group_by_route();
+    if (plans_.empty()) return {};
+    avoid_what_stands();
+    place_users();
+    find_waiting_zones(world_, take_ground(), lanes_);
+    return std::move(lanes_);
+  }
+
+  std::vector<Polygon> ground() {
+    group_by_route();
+    avoid_what_stands();
+    return take_ground();
+  }
 
  private:
   struct Plan {
@@ -106,12 +94,136 @@ class LaneBuilder {
     TrackLimits limits;
     std::vector<double> radii;
   };
-  void group_by_route();
-  [[nodiscard]] static Lane lay(const Plan& plan);
-  void avoid_what_stands();
-  [[nodiscard]] std::vector<Polygon> take_ground();
-  [[nodiscard]] std::vector<std::size_t> rounded_corners(std::size_t lane, int block) const;
-  void place_users();
+
+  void group_by_route() {
+    std::map<RoundKey, std::size_t> rounds;
+    for (std::size_t id = 0; id < world_.things.size(); ++id) {
+      const Thing& thing = world_.things[id];
+      if (!thing.route) continue;
+      Route route = *thing.route;
+      const bool alone = !route.loop || route.delay > 0.0;
+      std::vector<Waypoint>& round = route.waypoints;
+      const auto is_less = [](const Waypoint& a, const Waypoint& b) {
+        return values_of(a) < values_of(b);
+      };
+      if (!alone)
+        std::rotate(round.begin(), std::min_element(round.begin(), round.end(), is_less),
+                    round.end());
+      RoundKey key{thing.thing_class, route.speed, alone ? id + 1 : 0, {}};
+      for (const Waypoint& waypoint : round) std::get<3>(key).push_back(values_of(waypoint));
+      const auto [entry, is_new] = rounds.emplace(key, plans_.size());
+      const Footprint print = footprint_at(thing);
+      if (is_new) {
+        const double radius = corner_radius(thing.thing_class);
+        plans_.push_back({{},
+                          route,
+                          print,
+                          thing.pose.translation().z(),
+                          {config_.acceleration, config_.turn_rate, radius},
+                          std::vector<double>(route.waypoints.size(), radius)});
+      }
+      grow(plans_[entry->second].footprint, print);
+      plans_[entry->second].things.push_back(id);
+    }
+  }
+
+  [[nodiscard]] static Lane lay(const Plan& plan) {
+    Track track(plan.route, plan.limits, plan.radii);
+    const int blocks = std::max(3, static_cast<int>(std::ceil(track.length() / kBlock)));
+    const double length = track.length() / blocks;
+    return {std::move(track), plan.footprint, blocks, length, 0, {}, {}, {}, {}};
+  }
+
+  /// Halves the radius of a rounded corner that touches what stands, and in the end turns it on the
+  /// spot. \throws WorldError for what still touches then
+  void avoid_what_stands() {
+    std::vector<std::size_t> changed;  // lanes
+    for (std::size_t lane = 0; lane < plans_.size(); ++lane) {
+      changed.push_back(lane);
+      lanes_.lanes.push_back(lay(plans_[lane]));
+    }
+    ground_.resize(plans_.size());
+    for (int halving = 0; !changed.empty(); ++halving) {
+      std::vector<std::pair<std::size_t, int>> blocks;  // lane and block
+      std::vector<Polygon> ground;                      // of each
+      for (const std::size_t lane : changed) {
+        if (halving > 0) lanes_.lanes[lane] = lay(plans_[lane]);
+        ground_[lane] = ground_of(lanes_.lanes[lane]);
+        ground.insert(ground.end(), ground_[lane].begin(), ground_[lane].end());
+        for (int i = 0; i < lanes_.lanes[lane].blocks; ++i) blocks.emplace_back(lane, i);
+      }
+      std::set<std::pair<std::size_t, std::size_t>> tight;  // lane, way-point
+      const PolygonIndex index(ground, 0.0);
+      for_each_standing(world_, kDrivenOver, [&](const Standing& standing) {
+        for (const std::size_t number : index.touching(standing.polygon)) {
+          const auto [lane, block] = blocks[number];
+          const Plan& plan = plans_[lane];
+          const double bottom = plan.base + plan.footprint.bottom;
+          const double top = plan.base + plan.footprint.top;
+          if (standing.bottom >= top || standing.top <= bottom) continue;
+          const auto corners = rounded_corners(lane, block);
+          for (const std::size_t corner : corners) tight.emplace(lane, corner);
+          if (corners.empty())
+            throw WorldError("thing " + quoted(world_.things[plan.things[0]]) +
+                             " would drive through " + quoted(world_.things[standing.thing]) +
+                             " near " +
+                             place_text(lanes_.lanes[lane]
+                                            .track.place(block * lanes_.lanes[lane].block_length)
+                                            .position) +
+                             "; allowed is a route that keeps its whole body clear of what stands");
+        }
+      });
+      changed.clear();
+      for (const auto& [lane, waypoint] : tight) {
+        plans_[lane].radii[waypoint] *= halving < kHalvings ? 0.5 : 0.0;
+        if (changed.empty() || changed.back() != lane) changed.push_back(lane);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<Polygon> take_ground() {
+    std::vector<Polygon> all;
+    for (std::vector<Polygon>& blocks : ground_)
+      std::move(blocks.begin(), blocks.end(), std::back_inserter(all));
+    return all;
+  }
+
+  /// The way-points whose rounded corners lie in a block.
+  [[nodiscard]] std::vector<std::size_t> rounded_corners(std::size_t lane, int block) const {
+    const Lane& here = lanes_.lanes[lane];
+    const auto& elements = here.track.elements();
+    const double begin = block * here.block_length;
+    std::vector<std::size_t> corners;
+    for (std::size_t e = here.track.element_at(begin);
+         e < elements.size() && elements[e].begin < begin + here.block_length; ++e)
+      if (elements[e].curvature != 0.0) corners.push_back(elements[e].corner);
+    return corners;
+  }
+
+  void place_users() {
+    for (std::size_t lane = 0; lane < plans_.size(); ++lane)
+      for (const std::size_t thing : plans_[lane].things)
+        lanes_.users.push_back({thing, lane, 0.0});
+    std::sort(lanes_.users.begin(), lanes_.users.end(),
+              [](const LaneUser& a, const LaneUser& b) { return a.thing < b.thing; });
+    for (std::size_t user = 0; user < lanes_.users.size(); ++user) {
+      LaneUser& entry = lanes_.users[user];
+      Lane& lane = lanes_.lanes[entry.lane];
+      const Thing& thing = world_.things[entry.thing];
+      const Eigen::Vector2d at = thing.pose.translation().head<2>();
+      entry.start = lane.track.nearest({at, yaw_of(thing.pose)});
+      const double off = (lane.track.place(entry.start).position - at).norm();
+      const double cut = plans_[entry.lane].limits.corner_radius;
+      if (off > kOffRoute + cut)
+        throw WorldError("thing " + quoted(thing) + " stands " + std::to_string(off).substr(0, 4) +
+                         " m off its route at the start; allowed is a place on the route");
+      lane.users.push_back(user);
+    }
+    for (Lane& lane : lanes_.lanes)
+      std::sort(lane.users.begin(), lane.users.end(), [&](std::size_t a, std::size_t b) {
+        return std::make_pair(lanes_.users[a].start, a) < std::make_pair(lanes_.users[b].start, b);
+      });
+  }
 
   const WorldDescription& world_;
   const MoversConfig& config_;
@@ -119,142 +231,6 @@ class LaneBuilder {
   Lanes lanes_;
   std::vector<std::vector<Polygon>> ground_;  ///< of the blocks of each lane
 };
-
-Lanes LaneBuilder::build() {
-  group_by_route();
-  if (plans_.empty()) return {};
-  avoid_what_stands();
-  place_users();
-  find_waiting_zones(world_, take_ground(), lanes_);
-  return std::move(lanes_);
-}
-
-std::vector<Polygon> LaneBuilder::ground() {
-  group_by_route();
-  avoid_what_stands();
-  return take_ground();
-}
-
-std::vector<Polygon> LaneBuilder::take_ground() {
-  std::vector<Polygon> all;
-  for (std::vector<Polygon>& blocks : ground_)
-    std::move(blocks.begin(), blocks.end(), std::back_inserter(all));
-  return all;
-}
-
-void LaneBuilder::group_by_route() {
-  std::map<RoundKey, std::size_t> rounds;
-  for (std::size_t id = 0; id < world_.things.size(); ++id) {
-    const Thing& thing = world_.things[id];
-    if (!thing.route) continue;
-    const RoundKey key = round_key(thing, id);
-    const auto [entry, is_new] = rounds.emplace(key, plans_.size());
-    const Footprint print = footprint_at(thing);
-    if (is_new) {
-      Route route = *thing.route;
-      if (key.alone == 0) route.waypoints = key.waypoints;
-      const double radius = corner_radius(thing.thing_class);
-      plans_.push_back({{},
-                        route,
-                        print,
-                        thing.pose.translation().z(),
-                        {config_.acceleration, config_.turn_rate, radius},
-                        std::vector<double>(route.waypoints.size(), radius)});
-    }
-    grow(plans_[entry->second].footprint, print);
-    plans_[entry->second].things.push_back(id);
-  }
-}
-
-Lane LaneBuilder::lay(const Plan& plan) {
-  Track track(plan.route, plan.limits, plan.radii);
-  const int blocks = std::max(3, static_cast<int>(std::ceil(track.length() / kBlock)));
-  const double length = track.length() / blocks;
-  return {std::move(track), plan.footprint, blocks, length, 0, {}, {}, {}, {}};
-}
-
-/// The way-points whose rounded corners lie in a block.
-std::vector<std::size_t> LaneBuilder::rounded_corners(std::size_t lane, int block) const {
-  const Lane& here = lanes_.lanes[lane];
-  const auto& elements = here.track.elements();
-  const double begin = block * here.block_length;
-  std::vector<std::size_t> corners;
-  for (std::size_t e = here.track.element_at(begin);
-       e < elements.size() && elements[e].begin < begin + here.block_length; ++e)
-    if (elements[e].curvature != 0.0) corners.push_back(elements[e].corner);
-  return corners;
-}
-
-/// Halves the radius of a rounded corner that touches what stands, and in the end turns it on the
-/// spot. \throws WorldError for what still touches then
-void LaneBuilder::avoid_what_stands() {
-  std::vector<std::size_t> changed;  // lanes
-  for (std::size_t lane = 0; lane < plans_.size(); ++lane) {
-    changed.push_back(lane);
-    lanes_.lanes.push_back(lay(plans_[lane]));
-  }
-  ground_.resize(plans_.size());
-  for (int halving = 0; !changed.empty(); ++halving) {
-    std::vector<std::pair<std::size_t, int>> blocks;  // lane and block
-    std::vector<Polygon> ground;                      // of each
-    for (const std::size_t lane : changed) {
-      if (halving > 0) lanes_.lanes[lane] = lay(plans_[lane]);
-      ground_[lane] = ground_of(lanes_.lanes[lane]);
-      ground.insert(ground.end(), ground_[lane].begin(), ground_[lane].end());
-      for (int i = 0; i < lanes_.lanes[lane].blocks; ++i) blocks.emplace_back(lane, i);
-    }
-    std::set<std::pair<std::size_t, std::size_t>> tight;  // lane, way-point
-    const PolygonIndex index(ground, 0.0);
-    for_each_standing(world_, kDrivenOver, [&](const Standing& standing) {
-      for (const std::size_t number : index.touching(standing.polygon)) {
-        const auto [lane, block] = blocks[number];
-        const Plan& plan = plans_[lane];
-        const double bottom = plan.base + plan.footprint.bottom;
-        const double top = plan.base + plan.footprint.top;
-        if (standing.bottom >= top || standing.top <= bottom) continue;
-        const auto corners = rounded_corners(lane, block);
-        for (const std::size_t corner : corners) tight.emplace(lane, corner);
-        if (corners.empty())
-          throw WorldError("thing " + quoted(world_.things[plan.things[0]]) +
-                           " would drive through " + quoted(world_.things[standing.thing]) +
-                           " near " +
-                           place_text(lanes_.lanes[lane]
-                                          .track.place(block * lanes_.lanes[lane].block_length)
-                                          .position) +
-                           "; allowed is a route that keeps its whole body clear of what stands");
-      }
-    });
-    changed.clear();
-    for (const auto& [lane, waypoint] : tight) {
-      plans_[lane].radii[waypoint] *= halving < kHalvings ? 0.5 : 0.0;
-      if (changed.empty() || changed.back() != lane) changed.push_back(lane);
-    }
-  }
-}
-
-void LaneBuilder::place_users() {
-  for (std::size_t lane = 0; lane < plans_.size(); ++lane)
-    for (const std::size_t thing : plans_[lane].things) lanes_.users.push_back({thing, lane, 0.0});
-  std::sort(lanes_.users.begin(), lanes_.users.end(),
-            [](const LaneUser& a, const LaneUser& b) { return a.thing < b.thing; });
-  for (std::size_t user = 0; user < lanes_.users.size(); ++user) {
-    LaneUser& entry = lanes_.users[user];
-    Lane& lane = lanes_.lanes[entry.lane];
-    const Thing& thing = world_.things[entry.thing];
-    const Eigen::Vector2d at = thing.pose.translation().head<2>();
-    entry.start = lane.track.nearest({at, yaw_of(thing.pose)});
-    const double off = (lane.track.place(entry.start).position - at).norm();
-    const double cut = plans_[entry.lane].limits.corner_radius;
-    if (off > kOffRoute + cut)
-      throw WorldError("thing " + quoted(thing) + " stands " + std::to_string(off).substr(0, 4) +
-                       " m off its route at the start; allowed is a place on the route");
-    lane.users.push_back(user);
-  }
-  for (Lane& lane : lanes_.lanes)
-    std::sort(lane.users.begin(), lane.users.end(), [&](std::size_t a, std::size_t b) {
-      return std::make_pair(lanes_.users[a].start, a) < std::make_pair(lanes_.users[b].start, b);
-    });
-}
 
 }  // namespace
 

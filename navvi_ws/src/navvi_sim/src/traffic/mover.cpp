@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "description/hash.hpp"
-#include "description/random.hpp"
 
 namespace navvi_sim::traffic {
 namespace {

@@ -9,7 +9,6 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <navvi_config/reader.hpp>
-#include <navvi_sim/description/world_hash.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_sim/setup/sim_node_config.hpp>
 #include <navvi_types/msg_conversion.hpp>
@@ -58,10 +57,46 @@ navvi_types::Scenario scenario_of(const ClosedLoop& loop) {
 class LoopBag {
  public:
   /// \throws rosbag::BagException if it cannot be written
-  LoopBag(const fs::path& path, const ClosedLoop& loop);
+  LoopBag(const fs::path& path, const ClosedLoop& loop)
+      : loop_(loop), bag_(path.string(), rosbag::bagmode::Write) {
+    bag_.setCompression(rosbag::compression::LZ4);
+    bag_.write("/navvi/scenario", ros::TIME_MIN, navvi_types::to_msg(scenario_of(loop)));
+  }
 
   /// Call it after every step of the loop. \param rows  new ones of the journal
-  void watch(const std::vector<record::Row>& rows);
+  void watch(const std::vector<record::Row>& rows) {
+    const auto& told = loop_.told();
+    const navvi_sim::live::Session& session = loop_.session();
+    write("/odom", told.odometry);
+    if (loop_.config().sim.life.robot.imperfections.odometry_drifts()) {
+      tf2_msgs::TFMessage frames;
+      frames.transforms = {navvi_sim::node::odom_msg(session.world().now())};
+      write("/tf", frames);
+    }
+    for (const auto& contact : told.contacts) write("/navvi/contacts", contact);
+    if (told.proximity) write("/navvi/proximity", *told.proximity);
+    if (told.link) write("/navvi/link", *told.link);
+    if (told.obstacles) write("/navvi/obstacles", *told.obstacles);
+    if (told.guidance) write("/navvi/guidance", *told.guidance);
+    for (const auto& cue : told.cues) write("/navvi/cues", cue);
+    const int drive = 256 * told.drive.state + told.drive.reason;
+    if (drive != drive_) write("/navvi/drive_state", told.drive);
+    drive_ = drive;
+    const navvi_people::people::StickAndButtons& hand = loop_.hand();
+    sensor_msgs::Joy joy;
+    joy.header.stamp = ros::Time(loop_.time());
+    joy.axes = {static_cast<float>(hand.left), static_cast<float>(hand.forward)};
+    joy.buttons = {hand.repeat ? 1 : 0};
+    write("/joy", joy);
+    for (; hashes_ < session.hashes().size(); ++hashes_)
+      write("/navvi/state_hash", navvi_types::to_msg(session.hashes()[hashes_]));
+    if (commands_ < session.commands().size()) {
+      write("/navvi/applied_commands", navvi_sim::node::applied_commands_msg(
+                                           session.commands(), commands_, ros::Time(loop_.time())));
+      commands_ = session.commands().size();
+    }
+    for (const record::Row& row : rows) write("/navvi/events", node::to_msg(row));
+  }
 
  private:
   template <typename Message>
@@ -75,47 +110,6 @@ class LoopBag {
   std::size_t commands_ = 0;
   int drive_ = -1;  ///< the last state and reason
 };
-
-LoopBag::LoopBag(const fs::path& path, const ClosedLoop& loop)
-    : loop_(loop), bag_(path.string(), rosbag::bagmode::Write) {
-  bag_.setCompression(rosbag::compression::LZ4);
-  bag_.write("/navvi/scenario", ros::TIME_MIN, navvi_types::to_msg(scenario_of(loop)));
-}
-
-void LoopBag::watch(const std::vector<record::Row>& rows) {
-  const auto& told = loop_.told();
-  const navvi_sim::live::Session& session = loop_.session();
-  write("/odom", told.odometry);
-  if (loop_.config().sim.life.robot.imperfections.odometry_drifts()) {
-    tf2_msgs::TFMessage frames;
-    frames.transforms = {navvi_sim::node::odom_msg(session.world().now())};
-    write("/tf", frames);
-  }
-  for (const auto& contact : told.contacts) write("/navvi/contacts", contact);
-  if (told.proximity) write("/navvi/proximity", *told.proximity);
-  if (told.link) write("/navvi/link", *told.link);
-  if (told.obstacles) write("/navvi/obstacles", *told.obstacles);
-  if (told.guidance) write("/navvi/guidance", *told.guidance);
-  for (const auto& cue : told.cues) write("/navvi/cues", cue);
-  const int drive = 256 * told.drive.state + told.drive.reason;
-  if (drive != drive_) write("/navvi/drive_state", told.drive);
-  drive_ = drive;
-  const navvi_people::people::StickAndButtons& hand = loop_.hand();
-  sensor_msgs::Joy joy;
-  joy.header.stamp = ros::Time(loop_.time());
-  joy.axes = {static_cast<float>(hand.left), static_cast<float>(hand.forward)};
-  joy.buttons = {hand.repeat ? 1 : 0};
-  write("/joy", joy);
-  for (; hashes_ < session.hashes().size(); ++hashes_)
-    write("/navvi/state_hash", navvi_types::to_msg(session.hashes()[hashes_]));
-  if (commands_ < session.commands().size()) {
-    write("/navvi/applied_commands",
-          navvi_sim::node::applied_commands_msg(session.commands(), commands_,
-                                                ros::Time(loop_.time())));
-    commands_ = session.commands().size();
-  }
-  for (const record::Row& row : rows) write("/navvi/events", node::to_msg(row));
-}
 
 LoopTrial::LoopTrial(trial::TrialNodeConfig config, const ClosedLoop& loop, fs::path phrases)
     : config_(std::move(config)),

@@ -64,6 +64,55 @@ struct OpenFile {
   const int descriptor;
 };
 
+/// Appends to what a crash left; `contents` has been read from `file`.
+navvi_files::Problem mend(const fs::path& folder, int file, const std::string& bytes,
+                          JournalContents& contents, Recovery& recovery,
+                          const navvi_files::SystemCalls& calls) {
+  if (!contents.damage.empty()) {
+    const std::string tail = bytes.substr(contents.good_bytes);
+    const fs::path aside = place_for(folder, tail);
+    if (const auto problem = navvi_files::write_atomically(aside, tail, calls)) return problem;
+    if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || calls.fsync(file) != 0)
+      return navvi_files::failure("shorten the journal", errno);
+    recovery.changed = true;
+    recovery.report +=
+        contents.damage + "; the bytes from there on are in " + aside.filename().string() + ". ";
+  }
+  std::string lines;
+  if (contents.good_bytes == 0) lines = std::string(kJournalHeader) + "\n";
+  bool open = false;
+  for (const auto& row : contents.rows) {
+    if (row.type == "TRIAL_START") open = true;
+    if (row.type == "TRIAL_END") open = false;
+  }
+  const bool damaged = rows_were_lost(folder);
+  const bool said = !contents.rows.empty() && contents.rows.back().type == "TRIAL_END" &&
+                    contents.rows.back().fields.get("reason") == "journal_damaged";
+  if (open || (damaged && !said && !contents.rows.empty())) {
+    const Row& last = contents.rows.back();
+    const std::string summary = navvi_files::read_file(folder / "summary.csv").value_or("");
+    // What the trial's own end could not write into its journal.
+    const Summary told = parse_summary(summary).value_or(Summary());
+    const bool invalid = damaged || cell_of(told, "result") == "invalid";
+    Fields fields;
+    fields.set("result", invalid ? "invalid" : "aborted")
+        .set("reason", damaged   ? "journal_damaged"
+                       : invalid ? cell_of(told, "reason")
+                                 : "ended_without_a_word");
+    const Row end{last.trial, last.seq + 1, last.sim_ns, last.mono_ns, "TRIAL_END", fields};
+    lines += format_row(end);
+    contents.rows.push_back(end);
+    recovery.report += "An open trial was closed as " + fields.get("result") + ". ";
+  }
+  if (lines.empty()) return std::nullopt;
+  recovery.changed = true;
+  std::string_view rest = lines;
+  int error = navvi_files::write_all(file, rest, calls);
+  if (error == 0 && calls.fsync(file) != 0) error = errno;
+  if (error != 0) return navvi_files::failure("close the journal", error);
+  return std::nullopt;
+}
+
 }  // namespace
 
 Journal::Journal(const fs::path& folder, const std::string& trial, std::uint64_t min_free,
@@ -163,59 +212,6 @@ JournalContents read_journal(std::string_view bytes) {
   }
   return contents;
 }
-
-namespace {
-
-/// Appends to what a crash left; `contents` has been read from `file`.
-navvi_files::Problem mend(const fs::path& folder, int file, const std::string& bytes,
-                          JournalContents& contents, Recovery& recovery,
-                          const navvi_files::SystemCalls& calls) {
-  if (!contents.damage.empty()) {
-    const std::string tail = bytes.substr(contents.good_bytes);
-    const fs::path aside = place_for(folder, tail);
-    if (const auto problem = navvi_files::write_atomically(aside, tail, calls)) return problem;
-    if (::ftruncate(file, static_cast<off_t>(contents.good_bytes)) != 0 || calls.fsync(file) != 0)
-      return navvi_files::failure("shorten the journal", errno);
-    recovery.changed = true;
-    recovery.report +=
-        contents.damage + "; the bytes from there on are in " + aside.filename().string() + ". ";
-  }
-  std::string lines;
-  if (contents.good_bytes == 0) lines = std::string(kJournalHeader) + "\n";
-  bool open = false;
-  for (const auto& row : contents.rows) {
-    if (row.type == "TRIAL_START") open = true;
-    if (row.type == "TRIAL_END") open = false;
-  }
-  const bool damaged = rows_were_lost(folder);
-  const bool said = !contents.rows.empty() && contents.rows.back().type == "TRIAL_END" &&
-                    contents.rows.back().fields.get("reason") == "journal_damaged";
-  if (open || (damaged && !said && !contents.rows.empty())) {
-    const Row& last = contents.rows.back();
-    const std::string summary = navvi_files::read_file(folder / "summary.csv").value_or("");
-    // What the trial's own end could not write into its journal.
-    const Summary told = parse_summary(summary).value_or(Summary());
-    const bool invalid = damaged || cell_of(told, "result") == "invalid";
-    Fields fields;
-    fields.set("result", invalid ? "invalid" : "aborted")
-        .set("reason", damaged   ? "journal_damaged"
-                       : invalid ? cell_of(told, "reason")
-                                 : "ended_without_a_word");
-    const Row end{last.trial, last.seq + 1, last.sim_ns, last.mono_ns, "TRIAL_END", fields};
-    lines += format_row(end);
-    contents.rows.push_back(end);
-    recovery.report += "An open trial was closed as " + fields.get("result") + ". ";
-  }
-  if (lines.empty()) return std::nullopt;
-  recovery.changed = true;
-  std::string_view rest = lines;
-  int error = navvi_files::write_all(file, rest, calls);
-  if (error == 0 && calls.fsync(file) != 0) error = errno;
-  if (error != 0) return navvi_files::failure("close the journal", error);
-  return std::nullopt;
-}
-
-}  // namespace
 
 Recovery recover(const fs::path& folder, const navvi_files::SystemCalls& calls) {
   Recovery recovery;

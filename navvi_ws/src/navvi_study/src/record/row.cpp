@@ -2,10 +2,9 @@
 
 #include <zlib.h>
 
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <navvi_types/scenario.hpp>
 #include <stdexcept>
 
 namespace navvi_study::record {
@@ -84,12 +83,6 @@ std::optional<Number> number_from(std::string_view text) {
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
   return number;
-}
-
-std::string hex8(std::uint32_t value) {
-  std::array<char, 9> text{};
-  std::snprintf(text.data(), text.size(), "%08x", value);
-  return text.data();
 }
 
 }  // namespace
@@ -191,13 +184,13 @@ std::string format_row(const Row& row) {
   const std::string body = row.trial + "," + std::to_string(row.seq) + "," +
                            std::to_string(row.sim_ns) + "," + std::to_string(row.mono_ns) + "," +
                            row.type + "," + row.fields.format();
-  return body + "," + hex8(crc32(body)) + "\n";
+  return body + "," + navvi_types::to_hex(crc32(body), 8) + "\n";
 }
 
 std::optional<Row> parse_row(std::string_view line) {
   const auto at = line.rfind(',');
-  if (at == line.npos || line.substr(at + 1) != hex8(crc32(line.substr(0, at))))
-    return std::nullopt;
+  if (at == line.npos) return std::nullopt;
+  if (line.substr(at + 1) != navvi_types::to_hex(crc32(line.substr(0, at)), 8)) return std::nullopt;
   const auto columns = split(line.substr(0, at), ',');
   if (columns.size() != 6 || !is_trial(columns[0]) || !is_type(columns[4])) return std::nullopt;
   const auto seq = number_from<std::uint32_t>(columns[1]);

@@ -5,7 +5,6 @@
 #include <rosbag/view.h>
 
 #include <navvi_config/reader.hpp>
-#include <navvi_sim/description/world_hash.hpp>
 #include <navvi_sim/node/msg_conversion.hpp>
 #include <navvi_sim/setup/sim_node_config.hpp>
 #include <navvi_types/msg_conversion.hpp>

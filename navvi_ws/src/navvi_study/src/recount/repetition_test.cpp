@@ -4,7 +4,6 @@
 
 #include <navvi_config/reader.hpp>
 #include <navvi_config/writer.hpp>
-#include <navvi_sim/description/world_hash.hpp>
 #include <navvi_sim/setup/sim_node_config.hpp>
 
 namespace navvi_study::recount {

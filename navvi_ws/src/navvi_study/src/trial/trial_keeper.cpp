@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <boost/algorithm/string/join.hpp>
 #include <cmath>
-#include <navvi_config/reader.hpp>
-#include <navvi_feedback/menu/places_file.hpp>
 #include <stdexcept>
 #include <utility>
 

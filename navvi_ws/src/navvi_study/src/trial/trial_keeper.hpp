@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <navvi_feedback/menu/named_place.hpp>
+#include <navvi_feedback/menu/places_file.hpp>
 #include <navvi_types/stall_guard.hpp>
 #include <optional>
 #include <string>

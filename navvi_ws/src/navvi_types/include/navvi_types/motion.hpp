@@ -36,6 +36,10 @@ struct Odometry {
   double floor = 0.0;     ///< m, height of the floor in odom
 };
 
+/// m above the floor, of a robot with its load: what begins higher does not matter to it. The map,
+/// the simulated hull, what is near and what a robot's own sensors see share this default.
+inline constexpr double kHeadroom = 0.8;
+
 /// m, beyond where a pose arrives; by odometry the goal may be so much farther.
 inline constexpr double kArrivalMargin = 1.0;
 

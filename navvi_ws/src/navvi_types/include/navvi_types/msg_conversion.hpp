@@ -85,6 +85,9 @@ namespace navvi_types {
 
 /// Places in the message's frame. \param z  m
 [[nodiscard]] geometry_msgs::Point point_msg(const Eigen::Vector2d& point, double z);
+[[nodiscard]] inline geometry_msgs::Point point_msg(const Eigen::Vector3d& point) {
+  return point_msg(point.head<2>(), point.z());
+}
 [[nodiscard]] geometry_msgs::Pose pose_msg(const Pose2& pose, double z);
 /// A path whose poses look along it; the last one as the one before it. \param floor  m, z
 [[nodiscard]] nav_msgs::Path path_msg(const std::vector<Eigen::Vector2d>& points, double floor,

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cinttypes>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -45,7 +48,11 @@ struct StateHash {
   }
 };
 
-/// 16 hexadecimal digits.
-[[nodiscard]] std::string to_hex(std::uint64_t number);
+/// Hexadecimal. \param digits  at least
+[[nodiscard]] inline std::string to_hex(std::uint64_t number, int digits = 16) {
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%0*" PRIx64, digits, number);
+  return text.data();
+}
 
 }  // namespace navvi_types

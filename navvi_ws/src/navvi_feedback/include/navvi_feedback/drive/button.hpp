@@ -4,7 +4,7 @@
 
 namespace navvi_feedback::drive {
 
-/// What a person asks for by a button.
+/// What a person asks for by a button; up to help these are questions.
 enum class Button {
   repeat,  ///< the last direction again
   goal,    ///< where it is

@@ -1,12 +1,18 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <navvi_types/trial.hpp>
 #include <string>
 #include <vector>
 
-#include "navvi_feedback/menu/named_place.hpp"
-
 namespace navvi_feedback::menu {
+
+struct NamedPlace {
+  std::string name;                              ///< as cues::is_place_name() allows
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();  ///< m, in map
+  navvi_types::TrialState::Task task = navvi_types::TrialState::Task::drive;  ///< of a job, there
+};
 
 /// More, one after the other, nobody listens to.
 constexpr std::size_t kMostPlaces = 100;

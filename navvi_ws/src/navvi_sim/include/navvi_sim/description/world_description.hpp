@@ -6,6 +6,7 @@
 #include <memory>
 #include <navvi_files/printable.hpp>
 #include <navvi_types/angles.hpp>
+#include <navvi_types/random.hpp>
 #include <navvi_types/scenario.hpp>
 #include <navvi_types/thing.hpp>
 #include <optional>
@@ -19,6 +20,7 @@ namespace navvi_sim {
 using navvi_types::kPi;
 using navvi_types::Place;
 using navvi_types::Pose2;
+using navvi_types::Random;
 using navvi_types::ThingClass;
 
 struct Box {
@@ -88,6 +90,10 @@ struct WorldDescription {
   std::vector<Thing> things;       ///< a thing's id in the messages is its index here
   std::vector<Place> places = {};  ///< where they are; `at` is their middle, free or not
 };
+
+/// 64-bit FNV-1a over every name and number of `world`, as 16 hexadecimal digits. Two worlds with
+/// the same hash are, for a trial, the same world.
+[[nodiscard]] std::string world_hash(const WorldDescription& world);
 
 /// A sentence that says which file or thing is wrong, what is wrong with it, and what is allowed.
 class WorldError : public std::runtime_error {

@@ -43,16 +43,11 @@ class OccupancyMap {
   }
 
   /// Calls visit(OccupiedCube, whole) for each node below the root that is not free, a node before
-  /// its children: `whole` if all of the cube is occupied, and else a part, whose children are
-  /// passed over unless enter(OccupiedCube).
-  template <typename Visit, typename Enter>
-  void for_each_node(const Visit& visit, const Enter& enter) const {
-    std::size_t at = 0;
-    if (!stream_.empty()) walk({-kCenter, -kCenter, -kCenter, 2 * kCenter}, at, visit, enter);
-  }
+  /// its children: `whole` if all of the cube is occupied, and else a part.
   template <typename Visit>
   void for_each_node(const Visit& visit) const {
-    for_each_node(visit, [](const OccupiedCube&) { return true; });
+    std::size_t at = 0;
+    if (!stream_.empty()) walk({-kCenter, -kCenter, -kCenter, 2 * kCenter}, at, visit);
   }
 
   /// Calls visit(OccupiedCube) for all that is occupied, in octomap's order of leaves.
@@ -60,41 +55,18 @@ class OccupancyMap {
   ///                as a whole
   template <typename Visit>
   void for_each_cube(const Visit& visit, int finest = 1) const {
-    for_each_cube_in([](const OccupiedCube&) { return true; }, visit, finest);
-  }
-  /// The same, but for what lies in a cube for which enter(OccupiedCube) is false, which costs
-  /// less.
-  template <typename Enter, typename Visit>
-  void for_each_cube_in(const Enter& enter, const Visit& visit, int finest = 1) const {
-    for_each_node(
-        [&](const OccupiedCube& cube, bool whole) {
-          if (cube.side == finest || (whole && cube.side > finest)) visit(cube);
-        },
-        enter);
+    for_each_node([&](const OccupiedCube& cube, bool whole) {
+      if (cube.side == finest || (whole && cube.side > finest)) visit(cube);
+    });
   }
 
  private:
-  /// What a node says of its children. \param at  where it stands in the stream; is moved on
-  [[nodiscard]] unsigned read(std::size_t& at) const {
-    at += 2;
-    return static_cast<std::uint8_t>(stream_[at - 2]) |
-           static_cast<unsigned>(static_cast<std::uint8_t>(stream_[at - 1])) << 8;
-  }
-  /// Moves `at` from a node to what follows its last one.
-  void pass(std::size_t& at) const {
-    for (unsigned left = 1; left > 0; --left) {
-      const unsigned bits = read(at);
-      unsigned inner = bits & bits >> 1 & 0x5555U;
-      inner = (inner & 0x3333U) + (inner >> 2 & 0x3333U);
-      inner = (inner & 0x0F0FU) + (inner >> 4 & 0x0F0FU);
-      left += (inner & 0xFFU) + (inner >> 8);
-    }
-  }
   /// \param at  where the cube's node stands in the stream; is moved to what follows its last one
-  template <typename Visit, typename Enter>
-  void walk(const OccupiedCube& cube, std::size_t& at, const Visit& visit,
-            const Enter& enter) const {
-    const unsigned bits = read(at);
+  template <typename Visit>
+  void walk(const OccupiedCube& cube, std::size_t& at, const Visit& visit) const {
+    const unsigned bits = static_cast<std::uint8_t>(stream_[at]) |
+                          static_cast<unsigned>(static_cast<std::uint8_t>(stream_[at + 1])) << 8;
+    at += 2;
     const int half = cube.side / 2;
     for (unsigned i = 0; i < 8; ++i) {
       const unsigned kind = bits >> (2 * i) & 3U;
@@ -102,10 +74,7 @@ class OccupancyMap {
       const OccupiedCube child{cube.x + ((i & 1U) ? half : 0), cube.y + ((i & 2U) ? half : 0),
                                cube.z + ((i & 4U) ? half : 0), half};
       visit(child, kind == 2);
-      if (kind == 3 && enter(child))
-        walk(child, at, visit, enter);
-      else if (kind == 3)
-        pass(at);
+      if (kind == 3) walk(child, at, visit);
     }
   }
 

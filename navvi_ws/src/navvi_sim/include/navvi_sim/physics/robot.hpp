@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <navvi_config/field.hpp>
-#include <navvi_types/headroom.hpp>
 #include <navvi_types/motion.hpp>
 
 namespace navvi_sim::physics {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <navvi_config/field.hpp>
 #include <navvi_floor/octomap_reader.hpp>
-#include <navvi_types/headroom.hpp>
+#include <navvi_types/motion.hpp>
 #include <optional>
 #include <string>
 #include <vector>
