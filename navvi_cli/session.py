@@ -157,16 +157,19 @@ class Launch:
         before = {number: signal.signal(number, self.stop) for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
                   if signal.getsignal(number) != signal.SIG_IGN}
         before[signal.SIGPIPE] = signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+        before[signal.SIGALRM] = signal.signal(signal.SIGALRM, self.stop)
         for line in self.process.stdout:
             self.log.take(line.decode(errors="replace"))
         status = self.process.wait()
+        signal.alarm(0)
         for number, handler in before.items():
             signal.signal(number, handler)
         return status == 0 and not self.log.crashed
 
     def stop(self, number, _):
-        if number != signal.SIGINT:
-            self.process.terminate()
-        elif not self.interrupted:
+        """Again each second: while roslaunch starts, a signal can be lost; once it stops, it heeds no other."""
+        if number == signal.SIGINT and not self.interrupted:
             write("stopped by Ctrl-C; what was recorded is kept.")
         self.interrupted = True
+        self.process.send_signal(signal.SIGINT if number == signal.SIGALRM else number)
+        signal.alarm(1)

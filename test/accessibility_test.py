@@ -256,6 +256,16 @@ def test_ctrl_c_ends_a_session_soon_and_says_so(session, tmp_path):
     assert "NODES" not in text
 
 
+@pytest.mark.parametrize("after", [0.3, 0.8, 1.3, 2.0, 3.0])
+def test_ctrl_c_while_a_session_starts_ends_it(after, session):
+    begun = session("world:=training")
+    begun.wait_until(lambda: "In a second terminal" in begun.text(), 60, "it tells what to do")
+    time.sleep(after)
+    begun.end()
+    text = begun.wait_until_ended(15 * slow())
+    assert "stopped by Ctrl-C" in text and "has begun" not in text.partition("stopped by Ctrl-C")[2]
+
+
 def slow():
     """A loaded machine takes as much longer as more programs want its cores."""
     return max(1.0, 2.0 * os.getloadavg()[0] / os.cpu_count())

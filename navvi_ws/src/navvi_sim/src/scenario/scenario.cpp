@@ -173,11 +173,16 @@ class ScenarioSampler {
       throw WorldError(who + " has a number that is not finite; allowed is x,y,yaw in m and rad");
     const std::size_t cell = ways_.cell_at(start.position);
     if (cell == FloorWays::kNone || ways_.clearance(cell) <= 0.0) {
-      const double floor = world_.floor_height + ways_.floor().cell_size() / 2.0;
+      const double side = ways_.floor().cell_size(), floor = world_.floor_height + side / 2.0;
+      const navvi_floor::Area area = ways_.floor().area();
+      const auto corner = [&](navvi_floor::Cell cell) {
+        return "(" + text(cell.x * side) + ", " + text(cell.y * side) + ")";
+      };
       const std::string thing =
           thing_at(world_, start.position, floor, world_.floor_height + config_.robot_height);
       throw WorldError(who + (thing.empty() ? " is off the floor" : " is in '" + thing + "'") +
-                       " of world '" + world_.name + "'; allowed is free floor");
+                       " of world '" + world_.name + "'; allowed is free floor, from " +
+                       corner(area.low) + " to " + corner(area.high));
     }
     if (ways_.clearance(cell) + ways_.floor().cell_size() < config_.robot_radius)
       throw WorldError(who + " is " + text(ways_.clearance(cell)) +

@@ -237,6 +237,8 @@ TEST_F(ScenarioIn, names_the_thing_that_a_given_start_is_in) {
   EXPECT_NE(sentence(4.0, 0.0).find("is in 'crate'"), std::string::npos) << sentence(4.0, 0.0);
   EXPECT_NE(sentence(0.0, 2.0).find("is in 'wall'"), std::string::npos) << sentence(0.0, 2.0);
   EXPECT_NE(sentence(30.0, 0.0).find("is off the floor"), std::string::npos);
+  EXPECT_NE(sentence(30.0, 0.0).find("free floor, from (-8, -4) to (8, 4)"), std::string::npos)
+      << sentence(30.0, 0.0);
 }
 
 TEST_F(ScenarioIn, starts_away_from_movers_and_looks_along_its_route) {

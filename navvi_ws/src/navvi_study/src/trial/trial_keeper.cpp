@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/algorithm/string/join.hpp>
 #include <cmath>
+#include <navvi_config/reader.hpp>
 #include <stdexcept>
 #include <utility>
 
