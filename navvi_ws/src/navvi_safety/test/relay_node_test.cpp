@@ -83,17 +83,18 @@ class Relay : public testing::Test {
     }));
   }
 
-  static pid_t pid_of_relay() {
+  /// What the relay answers, as to a master. \param method  of its own interface
+  XmlRpc::XmlRpcValue ask_relay(const char* method) {
     XmlRpc::XmlRpcValue ask, answer, uri;
     ask[0] = ros::this_node::getName();
-    ask[1] = "/relay_node";
+    ask[1] = node_.resolveName("relay_node");
     EXPECT_TRUE(ros::master::execute("lookupNode", ask, answer, uri, true));
     std::string host;
     std::uint32_t port = 0;
     EXPECT_TRUE(ros::network::splitURI(uri, host, port));
     XmlRpc::XmlRpcClient relay(host.c_str(), static_cast<int>(port));
-    EXPECT_TRUE(relay.execute("getPid", ask, answer));
-    return static_cast<int>(answer[2]);
+    EXPECT_TRUE(relay.execute(method, ask, answer));
+    return answer[2];
   }
 
   double speed_ = std::numeric_limits<double>::quiet_NaN();
@@ -192,7 +193,7 @@ TEST_F(Relay, P3_obeys_no_parameter_that_is_set_while_it_runs) {
 
 TEST_F(Relay, drops_commands_that_piled_up_while_it_was_halted) {
   start();
-  const pid_t relay = pid_of_relay();
+  const pid_t relay = static_cast<int>(ask_relay("getPid"));
   ASSERT_GT(relay, 0);
   ASSERT_EQ(kill(relay, SIGSTOP), 0);
   const ros::WallTime halted = ros::WallTime::now();
@@ -246,6 +247,27 @@ TEST_F(Careful, creeps_until_it_knows_what_is_near_and_is_slow_until_it_knows_th
   EXPECT_TRUE(drives(0.5, true, true));
   EXPECT_TRUE(drives(0.25 * 0.7, false, true)) << "nothing of what is near came of late";
 }
+
+/// Relays that end while the robot drives.
+class Ending : public Relay, public testing::WithParamInterface<std::pair<const char*, int>> {
+ protected:
+  Ending() : Relay(GetParam().first) {}
+};
+
+TEST_P(Ending, leaves_zero_to_the_wheels) {
+  const pid_t relay = static_cast<int>(ask_relay("getPid"));
+  start();
+  if (const int signal = GetParam().second)
+    kill(relay, signal);
+  else
+    ask_relay("shutdown");
+  EXPECT_TRUE(drive_until(0.7, [&] { return speed_ == 0.0; }));
+}
+
+INSTANTIATE_TEST_SUITE_P(each, Ending,
+                         testing::Values(std::pair{"interrupted", SIGINT},
+                                         std::pair{"terminated", SIGTERM},
+                                         std::pair{"replaced", 0}));
 
 TEST(CommandTransport, is_a_datagram_from_another_machine_alone) {
   for (const char* const host : {"localhost", "127.0.0.1"})
