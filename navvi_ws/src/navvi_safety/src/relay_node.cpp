@@ -66,7 +66,6 @@ int main(int argc, char** argv) {
     navvi_safety::LinkOutlet link(node);
     // The time of a person's side on another machine, whose own clock says nothing of this one.
     ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("navvi/clock", 1);
-    publish_state();
     for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_stop = 1; });
     navvi_config::on_shutdown_request([] { g_stop = 1; });
 
