@@ -272,12 +272,16 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
     assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
 
 
-def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, monkeypatch):
+def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, tmp_path):
     rest(work())
     work.study.journal.append("withdraw", participant="sub-01", data="delete")
-    with monkeypatch.context() as disk, pytest.raises(StudyError, match="sub-01 cannot be deleted"):
-        disk.setattr(shutil, "rmtree", lambda *given, **options: None)
+    home = work.study.home("sub-01")
+    home.rename(tmp_path / "moved")
+    home.symlink_to(tmp_path / "moved")
+    with pytest.raises(StudyError, match="sub-01 cannot be deleted"):
         study.Study(work.study.plan)
+    home.unlink()
+    (tmp_path / "moved").rename(home)
     again = [study.Study(work.study.plan) for _ in range(2)][-1]  # after a crash, any command, and the next
     assert not again.home("sub-01").exists()
     assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"], "once"

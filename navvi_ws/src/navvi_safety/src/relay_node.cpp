@@ -1,15 +1,19 @@
 // The last stage before a real robot's wheels: turns /navvi/command into the robot's velocity, or
 // stops.
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/Bool.h>
 
+#include <csignal>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace {
+
+volatile std::sig_atomic_t g_stop = 0;
 
 struct NodeConfig {
   navvi_safety::CommandGateConfig gate;
@@ -31,7 +35,8 @@ navvi_safety::Instant instant() {
 
 int main(int argc, char** argv) {
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
-  ros::init(argc, argv, "relay_node");
+  // roscpp's own handler would close the topics before the last zero is out.
+  ros::init(argc, argv, "relay_node", ros::init_options::NoSigintHandler);
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;
     navvi_safety::CommandGate gate(config.gate);
@@ -61,7 +66,8 @@ int main(int argc, char** argv) {
     navvi_safety::LinkOutlet link(node);
     // The time of a person's side on another machine, whose own clock says nothing of this one.
     ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("navvi/clock", 1);
-    publish_state();
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_stop = 1; });
+    navvi_config::on_shutdown_request([] { g_stop = 1; });
 
     bool pressed = false;
     const auto step = [&] {
@@ -82,8 +88,9 @@ int main(int argc, char** argv) {
                                               pressed = msg->data;
                                               step();
                                             });
-    ros::spin();
+    while (g_stop == 0) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
     wheels.publish(geometry_msgs::Twist());
+    ros::WallDuration(0.05).sleep();  // lets it leave
     return 0;
   });
 }

@@ -6,6 +6,7 @@
 #include <ros/network.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <rosgraph_msgs/Log.h>
 #include <std_msgs/Bool.h>
 #include <xmlrpcpp/XmlRpc.h>
 
@@ -38,6 +39,10 @@ class Relay : public testing::Test {
           drive_ = *msg;
           ++states_;
         });
+    log_ = node_.subscribe<rosgraph_msgs::Log>(
+        "/rosout", 100, [this](const rosgraph_msgs::Log::ConstPtr& msg) {
+          if (msg->name == node_.resolveName("relay_node")) logged_ += msg->msg;
+        });
   }
 
   /// By another connection than before.
@@ -52,7 +57,7 @@ class Relay : public testing::Test {
     command.twist.linear.x = speed;
     return spin_until(
         [&] {
-          command.header.stamp = ros::Time::now();
+          command.header.stamp = ros::Time::now() - age_;
           commands_.publish(command);
         },
         done);
@@ -83,22 +88,25 @@ class Relay : public testing::Test {
     }));
   }
 
-  static pid_t pid_of_relay() {
+  /// What the relay answers, as to a master. \param method  of its own interface
+  XmlRpc::XmlRpcValue ask_relay(const char* method) {
     XmlRpc::XmlRpcValue ask, answer, uri;
     ask[0] = ros::this_node::getName();
-    ask[1] = "/relay_node";
+    ask[1] = node_.resolveName("relay_node");
     EXPECT_TRUE(ros::master::execute("lookupNode", ask, answer, uri, true));
     std::string host;
     std::uint32_t port = 0;
     EXPECT_TRUE(ros::network::splitURI(uri, host, port));
     XmlRpc::XmlRpcClient relay(host.c_str(), static_cast<int>(port));
-    EXPECT_TRUE(relay.execute("getPid", ask, answer));
-    return static_cast<int>(answer[2]);
+    EXPECT_TRUE(relay.execute(method, ask, answer));
+    return answer[2];
   }
 
   double speed_ = std::numeric_limits<double>::quiet_NaN();
   navvi_msgs::DriveState drive_;
   int states_ = 0;  ///< that came
+  std::string logged_;
+  ros::Duration age_;  ///< of commands as they are sent
 
  private:
   bool spin_until(const std::function<void()>& send, const std::function<bool()>& done) {
@@ -114,13 +122,14 @@ class Relay : public testing::Test {
 
   ros::NodeHandle node_;
   ros::Publisher commands_;
-  ros::Subscriber wheels_, state_;
+  ros::Subscriber wheels_, state_, log_;
 };
 
 TEST_F(Relay, stops_the_wheels_when_only_bad_commands_come) {
   start();
   EXPECT_TRUE(drive_until(std::numeric_limits<double>::quiet_NaN(), [&] {
-    return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::COMMAND_INVALID;
+    return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::COMMAND_INVALID &&
+           logged_.find("commands rejected") != logged_.npos;
   }));
   EXPECT_GT(drive_.rejected, 0u);
 }
@@ -136,8 +145,10 @@ TEST_F(Relay, M2_wants_a_driver_that_has_connected_anew_to_be_neutral_first) {
   connect();
   expect_stopped_until_neutral();
   // Where connecting took longer than the timeout, the commands had been lost before.
-  EXPECT_TRUE(
-      drive_until(0.5, [&] { return drive_.reason == navvi_msgs::DriveState::DRIVER_CHANGED; }));
+  EXPECT_TRUE(drive_until(0.5, [&] {
+    return drive_.reason == navvi_msgs::DriveState::DRIVER_CHANGED &&
+           logged_.find("by another connection") != logged_.npos;
+  }));
   start(0.6);
 }
 
@@ -170,6 +181,9 @@ TEST_F(Relay, C8_stands_while_the_emergency_stop_is_pressed_and_until_the_stick_
   stand(0.7, 0.6);
   EXPECT_EQ(drive_.reason, navvi_msgs::DriveState::EMERGENCY_STOP) << "until it was neutral";
   start(0.6);
+  for (const bool on : {true, false}) press(on);  // within one step
+  EXPECT_TRUE(
+      drive_until(0.6, [&] { return drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP; }));
 }
 
 TEST_F(Relay, P3_obeys_no_parameter_that_is_set_while_it_runs) {
@@ -192,7 +206,7 @@ TEST_F(Relay, P3_obeys_no_parameter_that_is_set_while_it_runs) {
 
 TEST_F(Relay, drops_commands_that_piled_up_while_it_was_halted) {
   start();
-  const pid_t relay = pid_of_relay();
+  const pid_t relay = static_cast<int>(ask_relay("getPid"));
   ASSERT_GT(relay, 0);
   ASSERT_EQ(kill(relay, SIGSTOP), 0);
   const ros::WallTime halted = ros::WallTime::now();
@@ -203,11 +217,16 @@ TEST_F(Relay, drops_commands_that_piled_up_while_it_was_halted) {
 
 TEST_F(Relay, publishes_its_time_and_twice_a_second_the_state_of_the_connection) {
   ros::NodeHandle node;
-  int links = 0, clocks = 0;
+  int links = 0, slow = 0, clocks = 0;
   const ros::Subscriber link = node.subscribe<navvi_msgs::LinkState>(
-      "navvi/link", 10, [&](const navvi_msgs::LinkState::ConstPtr&) { ++links; });
+      "navvi/link", 10, [&](const navvi_msgs::LinkState::ConstPtr& msg) {
+        ++links;
+        slow += msg->late == navvi_msgs::LinkState::SLOW;
+      });
   const ros::Subscriber clock = node.subscribe<rosgraph_msgs::Clock>(
-      "navvi/clock", 100, [&](const rosgraph_msgs::Clock::ConstPtr&) { ++clocks; });
+      "navvi/clock", 100, [&](const rosgraph_msgs::Clock::ConstPtr& msg) {
+        clocks += std::abs((msg->clock - ros::Time::now()).toSec()) < 1.0;
+      });
   ASSERT_TRUE(wait_until([&] { return links > 0 && states_ > 0; })) << "the state is latched";
   links = clocks = 0;
   const ros::WallTime begin = ros::WallTime::now();
@@ -216,6 +235,12 @@ TEST_F(Relay, publishes_its_time_and_twice_a_second_the_state_of_the_connection)
   EXPECT_LE(links, 7);
   EXPECT_GT(clocks, 30);
   EXPECT_LE(states_, 3) << "the state is published where it changes";
+  start();
+  age_.fromSec(0.5);
+  const ros::WallTime late = ros::WallTime::now();
+  EXPECT_TRUE(drive_until(0.7, [&] { return (ros::WallTime::now() - late).toSec() > 1.5; }));
+  EXPECT_GE(slow, 1);
+  EXPECT_LE(slow, 8) << "once where commands begin to come late";
 }
 
 /// A relay that assists, and is to have zones.
@@ -246,6 +271,27 @@ TEST_F(Careful, creeps_until_it_knows_what_is_near_and_is_slow_until_it_knows_th
   EXPECT_TRUE(drives(0.5, true, true));
   EXPECT_TRUE(drives(0.25 * 0.7, false, true)) << "nothing of what is near came of late";
 }
+
+/// Relays that end while the robot drives.
+class Ending : public Relay, public testing::WithParamInterface<std::pair<const char*, int>> {
+ protected:
+  Ending() : Relay(GetParam().first) {}
+};
+
+TEST_P(Ending, leaves_zero_to_the_wheels) {
+  const pid_t relay = static_cast<int>(ask_relay("getPid"));
+  start();
+  if (const int signal = GetParam().second)
+    kill(relay, signal);
+  else
+    ask_relay("shutdown");
+  EXPECT_TRUE(drive_until(0.7, [&] { return speed_ == 0.0; }));
+}
+
+INSTANTIATE_TEST_SUITE_P(each, Ending,
+                         testing::Values(std::pair{"interrupted", SIGINT},
+                                         std::pair{"terminated", SIGTERM},
+                                         std::pair{"replaced", 0}));
 
 TEST(CommandTransport, is_a_datagram_from_another_machine_alone) {
   for (const char* const host : {"localhost", "127.0.0.1"})

@@ -19,7 +19,7 @@ class Attempt:
     replaces: str = ""  # the trial that did not count
     excluded: str = ""  # why
     excluded_by: str = ""
-    replaced: bool = True  # another attempt takes its place
+    final: bool = False  # excluded, and no other attempt takes its place
     dropped_out: bool = False  # the person or the experimenter ended it
     legs: dict = field(default_factory=dict)  # by trial, more than one of a job: SHA-256 of its files when it ended, by name; none in journals of before
 
@@ -128,7 +128,7 @@ class Progress:
             person.excluded = row["reason"]
             return
         attempt = self._attempt(row)
-        attempt.excluded, attempt.excluded_by, attempt.replaced = row["reason"], row["rule"] and "rule" or row["by"], row["replace"]
+        attempt.excluded, attempt.excluded_by, attempt.final = row["reason"], row["rule"] and "rule" or row["by"], not row["replace"]
         attempt.dropped_out = row.get("drop_out", False)
 
     def _withdraw(self, row):

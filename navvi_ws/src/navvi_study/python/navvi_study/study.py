@@ -87,7 +87,7 @@ class Study:
         if self.plan.order == "drawn" and not self.plan.seed:
             self.plan = dataclasses.replace(self.plan, seed=secrets.token_hex(16))
             write_safely(self.seed_file, self.plan.seed + "\n")
-        write_safely(file, json.dumps({"hash": self.plan.hash(), "plan": self.plan.values()}, indent=1, sort_keys=True) + "\n")
+        write_safely(file, json.dumps({"hash": self.plan.hash(), "plan": self.plan.values()}, indent=1) + "\n")
         self.journal.append("freeze", plan=self.plan.hash(), version=version, reason=reason or "", changes=changes or [],
                             **({"allocation": self._allocation()} if self.plan.order == "drawn" else {}))
         return changes

@@ -47,7 +47,7 @@ def _files(folder, sums):
 def _journal(program, folder):
     if not (folder / "journal.csv").is_file():
         return "no journal"
-    result = subprocess.run([str(program), "journal", str(folder)], capture_output=True, text=True, errors="replace", check=False)
+    result = subprocess.run([str(program), "journal", str(folder)], capture_output=True, errors="replace", check=False)
     return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[-3:])
 
 
@@ -55,7 +55,7 @@ def _bag(program, folder, row):
     if not (folder / "trial.bag").is_file():
         recorded = row.get("bag", "n/a")
         return "is missing" if recorded == "ok" else "no bag" if recorded in ("n/a", "none") else f"no whole bag, recorded as {recorded}"
-    result = subprocess.run([str(program), "bag", str(folder)], capture_output=True, text=True, errors="replace", check=False)
+    result = subprocess.run([str(program), "bag", str(folder)], capture_output=True, errors="replace", check=False)
     return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[:3])
 
 

@@ -18,9 +18,7 @@ class Driven(Step):
     def given_up(self, progress, person):
         """Whether its trial does not count, and nothing shall replace it or no world is left for it."""
         attempts = person.of(self)
-        if attempts and attempts[-1].excluded and not attempts[-1].replaced:
-            return True
-        return bool(attempts) and self.world_for(progress, person) is None
+        return bool(attempts) and (attempts[-1].final or self.world_for(progress, person) is None)
 
     def run(self, session, progress, person, lock):
         study, before, world = session.study, person.of(self), self.world_for(progress, person)
