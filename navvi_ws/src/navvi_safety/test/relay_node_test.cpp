@@ -132,6 +132,7 @@ TEST_F(Relay, stops_the_wheels_when_only_bad_commands_come) {
            logged_.find("commands rejected") != logged_.npos;
   }));
   EXPECT_GT(drive_.rejected, 0u);
+  EXPECT_EQ(logged_.find(" 0 commands rejected"), logged_.npos);
 }
 
 TEST_F(Relay, names_the_other_node_that_wants_to_drive_and_goes_on_with_its_driver) {
@@ -142,6 +143,7 @@ TEST_F(Relay, names_the_other_node_that_wants_to_drive_and_goes_on_with_its_driv
 
 TEST_F(Relay, M2_wants_a_driver_that_has_connected_anew_to_be_neutral_first) {
   start();
+  logged_.clear();
   connect();
   expect_stopped_until_neutral();
   // Where connecting took longer than the timeout, the commands had been lost before.
