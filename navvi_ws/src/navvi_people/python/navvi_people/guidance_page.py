@@ -16,10 +16,10 @@ WORSE = "person/worse:=1.5"
 ALONE = "feedback/lead:=hand+feedback/sounds/enabled:=false+speech:=false"
 # No seed of these was used for tuning.
 BATCHES = {
-    "closing": ["--seeds=92001-92200", THREE, CLOSING],
+    "closing": ["--seeds=92001-92200", THREE, "--conditions=sighted,words=feedback/lead:=words,default,flow,hand_alone"],
     "worlds": ["--worlds=narrow,warehouse", "--seeds=92001-92030", THREE, CLOSING],
     "noise": ["--seeds=104001-104600", THREE, f"--conditions=noise_numb={NOISE}+feedback/haptics/enabled:=false,noise_hand={NOISE}+feedback/lead:=hand"],
-    "worse": ["--seeds=92441-92480", THREE, f"--conditions=sighted,flow_worse=feedback/lead:=flow+{WORSE},hand_worse={ALONE}+{WORSE}"],
+    "worse": ["--seeds=92401-92600", THREE, f"--conditions=sighted,flow_worse=feedback/lead:=flow+{WORSE},hand_worse={ALONE}+{WORSE}"],
     "drawn": ["--seeds=92001-92005", "--people=drawn:1-20", CLOSING],
     "choices": ["--seeds=92401-92440", THREE,
                 "--conditions=default,sounds_off,touch_off,no_stop=feedback/cues/near/stop_moving:=0+feedback/cues/near/stop_standing:=0,"
