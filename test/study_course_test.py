@@ -1,6 +1,7 @@
 """Studies without a session: what comes next, and the journal after crashes."""
 import errno
 import fcntl
+import functools
 import getpass
 import itertools
 import multiprocessing
@@ -385,6 +386,58 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
     (tmp_path / "journal.torn").mkdir()
     with pytest.raises(StudyError, match="unfinished row, which cannot be set aside: Is a directory"):
         journal.Journal(kept.path).rows()
+
+
+SHORTER = {"within a row": lambda lines: lines[:1] + [lines[1][:9]], "by two rows": lambda lines: lines[:-2], "to nothing": lambda lines: [], "by all but its first row": lambda lines: lines[:1]}
+
+
+@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
+def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch, capsys, with_last, how):
+    for name, path in ("version", "test"), ("tool", "true"):
+        monkeypatch.setitem(actions.TOOLS, name, lambda *given, path=path: path)
+    rest(work())
+    kept, whole = work.study, work.study.journal.path.read_bytes()
+    args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False)
+    assert actions.verify(args) == 0
+    kept.journal.path.write_bytes(b"".join(SHORTER[how](whole.splitlines(keepends=True))))
+    if not with_last:
+        kept.journal.last.unlink()
+    named = "done sub-01 s1-end" if with_last else str(trial_of_first(kept)) if how == "within a row" else str(kept.frozen_file)
+    for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
+        with pytest.raises(StudyError) as problem:
+            action(args)
+        assert named in str(problem.value) and "restore" in str(problem.value), action
+    capsys.readouterr()
+    assert actions.verify(args) == 1 and named in capsys.readouterr().out
+    actions.status(args)
+    assert named in capsys.readouterr().out
+    kept.journal.path.write_bytes(whole)
+    assert actions.verify(args) == 0
+
+
+def trial_of_first(kept):
+    return kept.attempt_folder("sub-01", "s1-c1-trial-1", 1)
+
+
+def test_a_freeze_and_a_trial_that_were_killed_lack_no_row(tmp_path, monkeypatch):
+    kept = study.Study(small(tmp_path))
+    for fails in "append", "replace":
+        with monkeypatch.context() as disk, pytest.raises(KeyboardInterrupt):
+            disk.setattr(*((kept.journal, "append") if fails == "append" else (study.os, "replace")), functools.partial(killed, os.replace))
+            kept.freeze("test", None)
+        assert study.Study(kept.plan).unrecorded() == []
+    kept.require_frozen()
+    with pytest.raises(KeyboardInterrupt):
+        begin(kept, "killed").next("sub-01")
+    trial_of_first(kept).mkdir()
+    kept.journal.last.write_bytes(b"\0" * 99)  # of a power cut
+    assert study.Study(kept.plan).unrecorded() == [] and rest(begin(kept))[0] == "s1-c1-trial-1"
+
+
+def killed(replace, old, *more, **fields):
+    if fields or str(old).endswith(".next"):
+        raise KeyboardInterrupt
+    replace(old, *more)
 
 
 def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, monkeypatch):

@@ -25,6 +25,14 @@ ONLY = argument("--only", metavar="MEASURE", help="only the tables, and the figu
 
 
 def opened(args):
+    """The study. Raises StudyError where its journal has lost rows."""
+    study = _opened(args)
+    if lost := study.unrecorded():
+        raise StudyError("\n  ".join(lost))
+    return study
+
+
+def _opened(args):
     from .study import Study
     return Study.of(args.plan)
 
@@ -153,8 +161,8 @@ def status(args):
     0: printed. 2: a wrong plan, or a damaged record.
     """
     from . import overview
-    study = opened(args)
-    print("\n".join(overview.status(study, study.progress())))
+    study = _opened(args)
+    print("\n".join([*overview.status(study, study.progress()), *study.unrecorded()]))
 
 
 @action(PLAN, argument("what", metavar="TRIAL", help="a trial by its name, such as sub-03/trial-20260101T120000Z, or the code of a participant."),
@@ -232,11 +240,12 @@ def verify(args):
     0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
     """
     from . import verify
-    study = opened(args)
+    study = _opened(args)
     sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
     lines, counts, lost = verify.notes_and_answers(study, study.progress())
-    print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
-    return 1 if bad or lost else 0
+    unrecorded = study.unrecorded()
+    print("\n".join([*sentences, *lines, *unrecorded, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
+    return 1 if bad or lost or unrecorded else 0
 
 
 @action(PLAN, argument("--bids", action="store_true", help="the form, the one there is."))
