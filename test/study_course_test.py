@@ -15,6 +15,8 @@ import time
 import pytest
 
 from small_study import Driver, begin, bench, exclusion, frozen, rehearsed, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
+from navvi_cli import workspace
+from navvi_cli.commands import study as command
 from navvi_study import actions, export, journal, measures, overview, runner, session, study, table
 from navvi_study.analysis import Analysis
 from navvi_study.errors import StudyError
@@ -170,6 +172,24 @@ def test_zones_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, m
     for action in actions.check, actions.freeze:
         with pytest.raises(StudyError, match="own.yaml, line 1: \"speed\" .m/s. belongs to each slow zone, and to no other.$"):
             action(args)
+
+
+@pytest.mark.parametrize("old, new, says", [
+    ("lead: words", "lead: wrods", "lead\" is wrods; allowed is one of words, ticks, flow, hand"), ("feedback/lead", "feedback/ledd", "nearest is lead"),
+    ("feedback/lead: words", "sim/seed: 3", "seed"), ("feedback/lead: words", "touch/lead: 3", "\"touch\" has no parameters")])
+def test_parameters_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, monkeypatch, old, new, says):
+    monkeypatch.setattr(workspace, "is_current", lambda *programs: True)
+    for name, given in ("version", lambda: "test"), ("tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name), ("accept", command._accept):
+        monkeypatch.setitem(actions.TOOLS, name, given)
+    good = "touch: false, parameters: {feedback/lead: words, feedback/language: es}"
+    args = words(study.Study(small(tmp_path, ("touch: false", good.replace(old, new)))), reason=None, no_worlds=False, pictures=False)
+    for action in actions.check, actions.freeze:
+        with pytest.raises(StudyError) as problem:
+            action(args)
+        assert f"{args.plan}: condition plain: " in str(problem.value) and says in str(problem.value)
+    (tmp_path / "small.yaml").write_text((tmp_path / "small.yaml").read_text().replace(good.replace(old, new), good))
+    actions.freeze(args)
+    assert study.Study.of(args.plan).progress().freezes
 
 
 def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):

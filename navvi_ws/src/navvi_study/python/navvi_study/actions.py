@@ -1,7 +1,8 @@
 """The actions of `./navvi study`: each a function with its help and its arguments. Nothing here knows how programs are built."""
 from .errors import StudyError
 
-# Set by the command: tool(PACKAGE, PROGRAM) builds a program and returns its path; navvi and version are of the product.
+# Set by the command: tool(PACKAGE, PROGRAM) builds a program and returns its path; accept(PARAMETERS) raises StudyError for those that a
+# session refuses; navvi and version are of the product.
 TOOLS = {}
 ACTIONS = {}  # by name
 
@@ -55,7 +56,7 @@ def check(args):
     print("\n".join(overview.schedule(planned)))
     if args.no_worlds:
         return 0
-    worlds.require_files(planned, TOOLS["tool"])
+    _require_runnable(planned)
     lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
     print("\n".join(["", *lines]))
     for picture in worlds.pictures(planned, TOOLS["draw"]) if args.pictures else []:
@@ -74,9 +75,9 @@ def freeze(args):
     Exit codes
     0: frozen. 2: a wrong plan, or nothing to freeze.
     """
-    from . import overview, preregistration, worlds
+    from . import overview, preregistration
     study = opened(args)
-    worlds.require_files(study.plan, TOOLS.get("tool"))
+    _require_runnable(study.plan)
     changes = study.freeze(TOOLS["version"](), args.reason)
     print(f"navvi: the plan is frozen: {study.plan.hash()}")
     for change in changes or []:
@@ -310,6 +311,18 @@ def rehearse(args):
     from . import plan_file, rehearsal
     planned = plan_file.load(args.plan)
     _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
+
+
+def _require_runnable(plan):
+    """Raises StudyError for what a session would refuse while the participant waits."""
+    from . import worlds
+    worlds.require_files(plan, TOOLS.get("tool"))
+    for condition in plan.conditions:
+        try:
+            if condition.parameters:
+                TOOLS["accept"]([f"{name}:={value}" for name, value in condition.parameters])
+        except StudyError as problem:
+            raise StudyError(f"{plan.file}: condition {condition.name}: {problem}") from None
 
 
 def _live_session(study, typed):
