@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 import scipy.stats
 
-from small_study import Driver, begin, frozen, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
+from small_study import Driver, begin, frozen, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
 from navvi_study import actions, analysis, figures, overview, preregistration, report, study, table, ways
 from navvi_study.analysis import MODELS, Analysis, Contrast
 from navvi_study.errors import StudyError
@@ -216,12 +216,31 @@ def test_a_blind_plan_names_no_condition_before_its_analysis_is_frozen(tmp_path,
             action(args)
     assert not (kept.folder / "report.html").exists() and not list(kept.folder.glob("*.csv"))
     assert not {"full", "plain"} & set(re.findall(r"\w+", Page((kept.folder / "report-blind.html").read_text()).text))
+    args.reason = "not needed, as all are through"
     actions.unblind(args)
     text = Page((kept.folder / "report.html").read_text()).text
-    assert hashlib.sha256((kept.folder / "report-blind.html").read_bytes()).hexdigest() in text and "than in full" in text
+    assert hashlib.sha256((kept.folder / "report-blind.html").read_bytes()).hexdigest() in text and "than in full" in text and "; trials after that: 0." in text and "not needed" not in text
     assert (kept.folder / "trials.csv").exists() and not actions.table(args)
     with pytest.raises(StudyError, match="nothing to unblind"):
         actions.unblind(args)
+
+
+def test_an_unblinding_before_all_are_through_has_its_reason_and_its_trials_in_the_report(tmp_path, monkeypatch):
+    for name in "draw", "version":
+        monkeypatch.setitem(actions.TOOLS, name, lambda *words: "test")
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nblind: true"))
+    args = words(kept, only=None, blind=False, reason=None)
+    rest(begin(kept))
+    with pytest.raises(StudyError, match="not all participants are through, .*--reason"):
+        actions.unblind(args)
+    assert kept.concealed and not kept.progress().analyses
+    args.reason = "the board asked"
+    actions.unblind(args)
+    rest(begin(kept), "sub-02")
+    actions.report(args)
+    text = Page((kept.folder / "report.html").read_text()).text
+    assert 'not all participants were through, for the reason "the board asked"; trials after that: 2.' in text
 
 
 def test_the_same_study_gives_the_same_report(reported):

@@ -278,12 +278,14 @@ def report(args):
     _write_report(study.blinded() if args.blind or study.concealed else study, args.only, rehearsed=False)
 
 
-@action(PLAN)
+@action(PLAN, argument("--reason", metavar="TEXT", help="why the conditions are named before all participants are through."))
 def unblind(args):
     """Freeze a blinded analysis; the reports that follow name the conditions.
 
     For a plan with \"blind: true\", whose reports have letters until then. The
-    journal keeps the day and the SHA-256 of the blinded report of today.
+    journal keeps the day and the SHA-256 of the blinded report of today. Before all
+    participants are through it needs a reason; the report has it, and how many
+    trials came after.
 
     Exit codes
     0: frozen, and both reports are written. 2: not blinded, or frozen before.
@@ -292,8 +294,12 @@ def unblind(args):
     study = opened(args)
     if not study.concealed:
         raise StudyError("there is nothing to unblind: the plan lacks \"blind: true\", or its analysis was frozen before.")
+    early = not study.progress().over
+    if early and not args.reason:
+        raise StudyError("not all participants are through, and those who lead them would know the conditions; allowed now is with --reason.")
+    reason = _reason(args.reason) if early else ""
     _write_report(study.blinded(), None, rehearsed=False)
-    study.journal.append("analysis", report=sum_of(study.folder / "report-blind.html"), version=TOOLS["version"]())
+    study.journal.append("analysis", report=sum_of(study.folder / "report-blind.html"), version=TOOLS["version"](), reason=reason)
     _write_report(study, None, rehearsed=False)
 
 
