@@ -266,6 +266,7 @@ def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path)
         row = {"result": "reached", "shortest_path_m": "40.000", "elapsed_s": "120.000", "turns_per_min": "2.0", "mover_proximity_count": "12"}
         return worlds.compared(plan, {world: {**row, **(second if world.seed == 2 else {})} for world in plan.worlds})
     lines, alike = compared()
+    assert "The turns of set 2 are 4, those of set 1 4; alike enough." in lines
     assert alike and "  set 1: easy 1: reached, way 40.0, turns 4, movers 12, time 120.0." in lines
     assert not compared(shortest_path_m="51.0")[1] and not compared(elapsed_s="151.0", turns_per_min="1.6")[1] and not compared(turns_per_min="4.0")[1]
     assert compared(turns_per_min="3.0")[1], "two turns apart are alike, however few they are"

@@ -3,7 +3,8 @@
 doc/study.md shows how, from plan to report.
 
 Exit codes
-0: it is done. 1: it broke off. 2: a wrong argument, or a wrong plan.
+0: it is done. 1: it broke off, something differs (verify), or other worlds are
+recommended (check). 2: a wrong argument, or a wrong plan.
 """
 import os
 from types import SimpleNamespace

@@ -48,8 +48,8 @@ def check(args):
     driver meets it.
 
     Exit codes
-    0: the plan can be run. 1: it can, and its sets of worlds are not alike.
-    2: it cannot, and why.
+    0: the plan can be run. 1: it can, and other worlds are recommended: sets are
+    not alike, or the reference driver does not arrive. 2: it cannot, and why.
     """
     from . import overview, plan_file, worlds
     planned = plan_file.load(args.plan)
