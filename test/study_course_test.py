@@ -429,6 +429,7 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
         assert named in str(problem.value) and "restore" in str(problem.value), action
     capsys.readouterr()
     assert actions.verify(args) == 1 and named in capsys.readouterr().out
+    actions.stop(args)
     actions.status(args)
     assert named in capsys.readouterr().out
     kept.journal.path.write_bytes(whole)

@@ -126,7 +126,7 @@ def stop(args):
     Exit codes
     0: ended, or nothing was running. 2: not planned, or it does not end.
     """
-    study = opened(args)
+    study = _opened(args)
     ended = study.stop(study.progress().person(args.participant).name)
     print("navvi: ended: " + ", ".join(f"{pid} ({name})" for pid, name in ended.items()) + "." if ended else f"navvi: nothing of {args.participant} is running.")
 
