@@ -1,6 +1,7 @@
 """Studies without a session: what comes next, and the journal after crashes."""
 import errno
 import fcntl
+import functools
 import getpass
 import itertools
 import multiprocessing
@@ -14,6 +15,8 @@ import time
 import pytest
 
 from small_study import Driver, begin, bench, exclusion, frozen, rehearsed, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
+from navvi_cli import workspace
+from navvi_cli.commands import study as command
 from navvi_study import actions, export, journal, measures, overview, runner, session, study, table
 from navvi_study.analysis import Analysis
 from navvi_study.errors import StudyError
@@ -169,6 +172,24 @@ def test_zones_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, m
     for action in actions.check, actions.freeze:
         with pytest.raises(StudyError, match="own.yaml, line 1: \"speed\" .m/s. belongs to each slow zone, and to no other.$"):
             action(args)
+
+
+@pytest.mark.parametrize("old, new, says", [
+    ("lead: words", "lead: wrods", "lead\" is wrods; allowed is one of words, ticks, flow, hand"), ("feedback/lead", "feedback/ledd", "nearest is lead"),
+    ("feedback/lead: words", "sim/seed: 3", "seed"), ("feedback/lead: words", "touch/lead: 3", "\"touch\" has no parameters")])
+def test_parameters_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, monkeypatch, old, new, says):
+    monkeypatch.setattr(workspace, "is_current", lambda *programs: True)
+    for name, given in ("version", lambda: "test"), ("tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name), ("accept", command._accept):
+        monkeypatch.setitem(actions.TOOLS, name, given)
+    good = "touch: false, parameters: {feedback/lead: words, feedback/language: es}"
+    args = words(study.Study(small(tmp_path, ("touch: false", good.replace(old, new)))), reason=None, no_worlds=False, pictures=False)
+    for action in actions.check, actions.freeze:
+        with pytest.raises(StudyError) as problem:
+            action(args)
+        assert f"{args.plan}: condition plain: " in str(problem.value) and says in str(problem.value)
+    (tmp_path / "small.yaml").write_text((tmp_path / "small.yaml").read_text().replace(good.replace(old, new), good))
+    actions.freeze(args)
+    assert study.Study.of(args.plan).progress().freezes
 
 
 def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):
@@ -389,6 +410,59 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
     (tmp_path / "journal.torn").mkdir()
     with pytest.raises(StudyError, match="unfinished row, which cannot be set aside: Is a directory"):
         journal.Journal(kept.path).rows()
+
+
+SHORTER = {"within a row": lambda lines: lines[:1] + [lines[1][:9]], "by two rows": lambda lines: lines[:-2], "to nothing": lambda lines: [], "by all but its first row": lambda lines: lines[:1]}
+
+
+@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
+def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch, capsys, with_last, how):
+    for name, path in ("version", "test"), ("tool", "true"):
+        monkeypatch.setitem(actions.TOOLS, name, lambda *given, path=path: path)
+    rest(work())
+    kept, whole = work.study, work.study.journal.path.read_bytes()
+    args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False)
+    assert actions.verify(args) == 0
+    kept.journal.path.write_bytes(b"".join(SHORTER[how](whole.splitlines(keepends=True))))
+    if not with_last:
+        kept.journal.last.unlink()
+    named = "done sub-01 s1-end" if with_last else str(trial_of_first(kept)) if how == "within a row" else str(kept.frozen_file)
+    for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
+        with pytest.raises(StudyError) as problem:
+            action(args)
+        assert named in str(problem.value) and "restore" in str(problem.value), action
+    capsys.readouterr()
+    assert actions.verify(args) == 1 and named in capsys.readouterr().out
+    actions.stop(args)
+    actions.status(args)
+    assert named in capsys.readouterr().out
+    kept.journal.path.write_bytes(whole)
+    assert actions.verify(args) == 0
+
+
+def trial_of_first(kept):
+    return kept.attempt_folder("sub-01", "s1-c1-trial-1", 1)
+
+
+def test_a_freeze_and_a_trial_that_were_killed_lack_no_row(tmp_path, monkeypatch):
+    kept = study.Study(small(tmp_path))
+    for fails in "append", "replace":
+        with monkeypatch.context() as disk, pytest.raises(KeyboardInterrupt):
+            disk.setattr(*((kept.journal, "append") if fails == "append" else (study.os, "replace")), functools.partial(killed, os.replace))
+            kept.freeze("test", None)
+        assert study.Study(kept.plan).unrecorded() == []
+    kept.require_frozen()
+    with pytest.raises(KeyboardInterrupt):
+        begin(kept, "killed").next("sub-01")
+    trial_of_first(kept).mkdir()
+    kept.journal.last.write_bytes(b"\0" * 99)  # of a power cut
+    assert study.Study(kept.plan).unrecorded() == [] and rest(begin(kept))[0] == "s1-c1-trial-1"
+
+
+def killed(replace, old, *more, **fields):
+    if fields or str(old).endswith(".next"):
+        raise KeyboardInterrupt
+    replace(old, *more)
 
 
 def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, monkeypatch):

@@ -137,7 +137,7 @@ def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
     assert text.startswith(f"# A small study: pre-registration\n\nStudy small; the plan was frozen on ") and kept.plan.hash() in text
     headings = [line for line in text.splitlines() if line.startswith("## ")]
     assert headings == [f"## {name}" for name in ("Hypotheses", "Design", "Participants", "Measures", "Analysis", "Exclusions")]
-    for line in ("Primary: Time to the goal: full and plain are equivalent within 5 (s).", "Secondary: Collisions: full and plain differ.",
+    for line in ("Primary: Time to the goal: plain and full are equivalent within 5 (s).", "Secondary: Collisions: plain and full differ.",
                  "Group all: 2 orders, balanced for order and first-order carry-over.", "Group all: 4, in the conditions full, plain.",
                  "Collisions, per 100 m, of trials that count.", "Condition plain: no touch, speech, sounds, no picture, profile default.",
                  "The same holds where result is aborted or invalid: the trial broke off.", preregistration.MODELS["count"], preregistration.EQUIVALENCE):
@@ -146,7 +146,7 @@ def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
     changed = study.Study(small(tmp_path, ("limit: 60", "limit: 90")))
     changed.freeze("0.1.0", "too short")
     text = preregistration.write(changed).read_text()
-    assert ", too short: limit: 60.0 is now 90.0" in text and "full and plain differ." in text and "after 90 s" in text
+    assert ", too short: limit: 60.0 is now 90.0" in text and "plain and full differ." in text and "after 90 s" in text
 
 
 @pytest.mark.parametrize("keys, words", [
@@ -266,6 +266,7 @@ def test_sets_are_alike_by_ways_turns_and_times_and_movers_are_counted(tmp_path)
         row = {"result": "reached", "shortest_path_m": "40.000", "elapsed_s": "120.000", "turns_per_min": "2.0", "mover_proximity_count": "12"}
         return worlds.compared(plan, {world: {**row, **(second if world.seed == 2 else {})} for world in plan.worlds})
     lines, alike = compared()
+    assert "The turns of set 2 are 4, those of set 1 4; alike enough." in lines
     assert alike and "  set 1: easy 1: reached, way 40.0, turns 4, movers 12, time 120.0." in lines
     assert not compared(shortest_path_m="51.0")[1] and not compared(elapsed_s="151.0", turns_per_min="1.6")[1] and not compared(turns_per_min="4.0")[1]
     assert compared(turns_per_min="3.0")[1], "two turns apart are alike, however few they are"

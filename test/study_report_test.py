@@ -10,8 +10,8 @@ import pandas as pd
 import pytest
 import scipy.stats
 
-from small_study import Driver, begin, frozen, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
-from navvi_study import actions, analysis, figures, preregistration, report, study, table, ways
+from small_study import Driver, begin, frozen, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
+from navvi_study import actions, analysis, figures, overview, preregistration, report, study, table, ways
 from navvi_study.analysis import MODELS, Analysis, Contrast
 from navvi_study.errors import StudyError
 
@@ -71,8 +71,8 @@ def test_a_report_gives_the_difference_that_is_worked_out_by_hand(reported):
     kept, _ = reported
     one = Analysis(kept, kept.progress()).contrast("time", "plain", "full")
     assert one.participants == 5  # the sixth is excluded
-    assert one.difference == pytest.approx(-18.0)  # the mean of 16 to 20 s, less than twice as much
-    assert -20.0 <= one.low < one.difference < one.high <= -16.0
+    assert one.difference == pytest.approx(18.0)  # the first minus the second: twice 16 to 20 s, less once that
+    assert 16.0 <= one.low < one.difference < one.high <= 20.0
     detour = Analysis(kept, kept.progress()).contrast("detour", "plain", "full")
     assert detour.difference == 0.0 and detour.p is None and "cannot be estimated" in detour.note
 
@@ -117,16 +117,17 @@ def test_a_report_shows_ways_and_cues_of_trials_with_a_journal(work):
 
 
 def test_a_contrast_has_one_sign_in_all_of_a_report(reported):
-    _, text = reported
-    assert "full minus plain" in text and "plain minus full" not in text, "the plan's order, not that of the conditions"
-    assert "-18" not in text and text.count("18 s less") == 1, "in words there is no sign to mistake"
+    kept, text = reported
+    assert overview.question(kept.plan.primary).startswith("time to the goal, plain minus full"), "the first that the plan names minus the second"
+    assert "plain minus full" in text and "full minus plain" not in text, "the plan's order, not that of the conditions"
+    assert text.count("18 s more") == 1, "in words there is no sign to mistake"
 
 
 def test_a_report_begins_with_the_answer_and_folds_what_is_behind_it(reported):
     _, text = reported
     page = Page(text)
-    # Five people of 16 to 20 s, twice as slow in plain: -18 s on average, with an error of sqrt(2 / 5) and so 18 +- 1.2.
-    answer = "In condition full, participants took 18 s less than in plain [17, 19]; less in 5 of 5 pairs."
+    # Five people of 16 to 20 s, twice as slow in plain: 18 s on average, with an error of sqrt(2 / 5) and so 18 +- 1.2.
+    answer = "In condition plain, participants took 18 s more than in full [17, 19]; more in 5 of 5 pairs."
     who = "Participants: 6 planned, 6 enrolled, 5 completed, 1 excluded, 5 analysed in the primary outcome."
     at = [page.text.index(words) for words in ("Result", answer, who, "Secondary outcomes", "Participants and trials", "Other measures", "Quality of the data")]
     assert at == sorted(at) and answer not in page.folded
@@ -151,12 +152,12 @@ def test_the_flow_of_participants_and_trials_is_that_of_a_study_worked_out_by_ha
 
 
 @pytest.mark.parametrize("measure, differences, low, high, words", [
-    ("time", [-37.4] * 20, -46.4, -29.2, "In condition b, participants took 37 s less than in a [29, 46]; less in 20 of 20 pairs."),
-    ("collisions", [1.0, 1.0, -0.5], -0.02, 1.1, "In condition b, participants had 0.50 more collisions a trial than in a [from 0.02 fewer to 1.10 more]; more in 2 of 3 pairs."),
-    ("drop_out", [-0.5, 0.0, 0.0, 0.0], -0.25, 0.0, "In condition b, participants dropped out 12 percentage points less often than in a [0, 25]; less in 1 of 4 pairs, alike in 3."),
-    ("time", [-0.6] * 2, -13.8, 13.0, "In condition b, participants took 0.6 s less than in a [from 13.0 more to 13.8 less]; less in 2 of 2 pairs."),
-    ("tlx", [2.0, 0.0], None, None, "In condition b, the workload was 1.0 points higher than in a; higher in 1 of 2 pairs, alike in 1."),
-    ("sus", [2.0, -2.0], None, None, "Usability, SUS: b and a have the same mean over 2 participants."),
+    ("time", [-37.4] * 20, -46.4, -29.2, "In condition a, participants took 37 s less than in b [29, 46]; less in 20 of 20 pairs."),
+    ("collisions", [1.0, 1.0, -0.5], -0.02, 1.1, "In condition a, participants had 0.50 more collisions a trial than in b [from 0.02 fewer to 1.10 more]; more in 2 of 3 pairs."),
+    ("drop_out", [-0.5, 0.0, 0.0, 0.0], -0.25, 0.0, "In condition a, participants dropped out 12 percentage points less often than in b [0, 25]; less in 1 of 4 pairs, alike in 3."),
+    ("time", [-0.6] * 2, -13.8, 13.0, "In condition a, participants took 0.6 s less than in b [from 13.0 more to 13.8 less]; less in 2 of 2 pairs."),
+    ("tlx", [2.0, 0.0], None, None, "In condition a, the workload was 1.0 points higher than in b; higher in 1 of 2 pairs, alike in 1."),
+    ("sus", [2.0, -2.0], None, None, "Usability, SUS: a and b have the same mean over 2 participants."),
 ])
 def test_a_difference_is_told_in_words_without_a_sign(measure, differences, low, high, words):
     told = Analysis.__new__(Analysis)
@@ -186,7 +187,7 @@ def test_an_interval_and_a_p_that_differ_are_said_in_words(reported, monkeypatch
     kept, _ = reported
     monkeypatch.setitem(analysis.MODELS, "time", lambda result, values, differences: setattr(result, "p", p))
     one = Analysis(kept, kept.progress()).contrast("time", "plain", "full")
-    assert one.high < 0 and (words in one.note if words else one.note == "")
+    assert one.low > 0 and (words in one.note if words else one.note == "")
 
 
 def test_a_blinded_report_has_letters_and_tells_no_condition(reported):
@@ -194,7 +195,7 @@ def test_a_blinded_report_has_letters_and_tells_no_condition(reported):
     blinded = kept.blinded()
     text = Page(report.page(blinded, blinded.progress(), rehearsed=False)).text
     assert not {"full", "plain"} & set(re.findall(r"\w+", text)) and "no touch" not in text
-    assert re.search("In condition B, participants took 18 s (less|more) than in A", text) and "B minus A" in text
+    assert re.search("In condition A, participants took 18 s (less|more) than in B", text) and "A minus B" in text
     assert "report small.yaml --blind" in text and {row["condition"] for row in blinded.answers("sub-01")} == {"A", "B"}
     assert sorted(kept.blinded().letters.items()) == sorted(blinded.letters.items()), "the key is kept"
     assert kept.plan.values() == study.Study(kept.plan).plan.values() and blinded.progress().complete(blinded.progress().person("sub-01"))
@@ -215,12 +216,31 @@ def test_a_blind_plan_names_no_condition_before_its_analysis_is_frozen(tmp_path,
             action(args)
     assert not (kept.folder / "report.html").exists() and not list(kept.folder.glob("*.csv"))
     assert not {"full", "plain"} & set(re.findall(r"\w+", Page((kept.folder / "report-blind.html").read_text()).text))
+    args.reason = "not needed, as all are through"
     actions.unblind(args)
     text = Page((kept.folder / "report.html").read_text()).text
-    assert hashlib.sha256((kept.folder / "report-blind.html").read_bytes()).hexdigest() in text and "than in plain" in text
+    assert hashlib.sha256((kept.folder / "report-blind.html").read_bytes()).hexdigest() in text and "than in full" in text and "; trials after that: 0." in text and "not needed" not in text
     assert (kept.folder / "trials.csv").exists() and not actions.table(args)
     with pytest.raises(StudyError, match="nothing to unblind"):
         actions.unblind(args)
+
+
+def test_an_unblinding_before_all_are_through_has_its_reason_and_its_trials_in_the_report(tmp_path, monkeypatch):
+    for name in "draw", "version":
+        monkeypatch.setitem(actions.TOOLS, name, lambda *words: "test")
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nblind: true"))
+    args = words(kept, only=None, blind=False, reason=None)
+    rest(begin(kept))
+    with pytest.raises(StudyError, match="not all participants are through, .*--reason"):
+        actions.unblind(args)
+    assert kept.concealed and not kept.progress().analyses
+    args.reason = "the board asked"
+    actions.unblind(args)
+    rest(begin(kept), "sub-02")
+    actions.report(args)
+    text = Page((kept.folder / "report.html").read_text()).text
+    assert 'not all participants were through, for the reason "the board asked"; trials after that: 2.' in text
 
 
 def test_the_same_study_gives_the_same_report(reported):
@@ -232,13 +252,13 @@ def test_counts_are_divided_by_the_exposure_that_the_plan_names(tmp_path):
     kept = driven(tmp_path, *SIX, ("outcomes: {", "outcomes: {exposure: time, "))
     measured = Analysis(kept, kept.progress())
     one = measured.contrast("collisions", "plain", "full")
-    # 3 collisions in t s, and in 2 t s: 180 / t and 90 / t a minute, for t of 16 to 21 s; each has twice the rate in full.
-    assert one.difference == pytest.approx(sum(90 / seconds for seconds in range(16, 22)) / 6)
+    # 3 collisions in t s, and in 2 t s: 180 / t and 90 / t a minute, for t of 16 to 21 s; each has half the rate in plain.
+    assert one.difference == pytest.approx(-sum(90 / seconds for seconds in range(16, 22)) / 6)
     assert one.estimate is None and one.note == "the model cannot be estimated: all participants differ alike between the conditions"
     measured.trials.loc[measured.trials["condition"] == "full", "shelf_collision_count"] = ["0", "1", "2", "0", "2", "1"]
     one = measured.contrast("collisions", "plain", "full")
-    assert one.estimate == pytest.approx(2.0, abs=0.1) and one.estimate_low < 2.0 < one.estimate_high and measured.unit("collisions") == "a minute"
-    assert "In condition full, participants had 4.9 more collisions a minute than in plain" in report.page(kept, kept.progress(), rehearsed=False)
+    assert one.estimate == pytest.approx(0.5, abs=0.03) and one.estimate_low < 0.5 < one.estimate_high and measured.unit("collisions") == "a minute"
+    assert "In condition plain, participants had 4.9 fewer collisions a minute than in full" in report.page(kept, kept.progress(), rehearsed=False)
     assert kept.plan.values()["exposure"] == "time" and "exposure" not in small(tmp_path).values()
 
 
@@ -274,34 +294,34 @@ def test_a_workload_with_one_item_declined_is_prorated_and_the_report_says_so(wo
 
 def test_models_find_what_was_put_in_and_nothing_where_nothing_is():
     source = np.random.default_rng(7)
-    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True, "exposure": 1.0,
-             "count": source.poisson(3.0 * (2.0 if second else 1.0) * ability), "time": min(60.0, source.exponential(20.0 if second else 40.0) * ability)}
-            for person in range(40) for ability in [source.gamma(8.0, 1 / 8.0)] for second in (0, 1) for _ in range(3)]
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + first) % 2, "first": float(first), "reached": True, "exposure": 1.0,
+             "count": source.poisson(3.0 * (2.0 if first else 1.0) * ability), "time": min(60.0, source.exponential(20.0 if first else 40.0) * ability)}
+            for person in range(40) for ability in [source.gamma(8.0, 1 / 8.0)] for first in (0, 1) for _ in range(3)]
     values = pd.DataFrame(rows).assign(reached=lambda rows: rows["time"] < 60.0)
     counted, timed = Contrast("collisions", "a", "b"), Contrast("time", "a", "b")
     MODELS["count"](counted, values.assign(value=values["count"].astype(float)), None)
     MODELS["time"](timed, values.assign(value=values["time"]), None)
     assert counted.estimate_low < 2.0 < counted.estimate_high and counted.p < 1e-6
     assert timed.estimate_low < 2.0 < timed.estimate_high and timed.p < 1e-3
-    shuffled = values.assign(second=source.permutation(values["second"]))
+    shuffled = values.assign(first=source.permutation(values["first"]))
     nothing = Contrast("collisions", "a", "b")
     MODELS["count"](nothing, shuffled.assign(value=values["count"].astype(float)), None)
     assert nothing.p > 0.01
 
 
 def test_where_all_are_quicker_in_one_condition_there_is_a_p_though_no_ratio():
-    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True, "exposure": 1.0,
-             "value": 30.0 + person - 10.0 * second} for person in range(12) for second in (0, 1)]
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + first) % 2, "first": float(first), "reached": True, "exposure": 1.0,
+             "value": 30.0 + person - 10.0 * first} for person in range(12) for first in (0, 1)]
     one = Contrast("time", "a", "b")
     MODELS["time"](one, pd.DataFrame(rows), None)
-    # Of each pair the first to arrive is the second condition: 12 times 1 - 1/2, with a variance of 1/4 each.
+    # The first of each pair to arrive is in the first condition: 12 times 1 - 1/2, with a variance of 1/4 each.
     assert one.p == pytest.approx(scipy.stats.chi2.sf((12 * 0.5) ** 2 / (12 * 0.25), 1)) and one.estimate is None and "no ratio" in one.note
 
 
 @pytest.mark.parametrize("kind", ["count", "share"])
 def test_where_nothing_is_counted_in_one_condition_ranks_are_compared(kind):
-    rows = [{"participant": f"sub-{person:02d}", "order": 1 + second, "second": float(second), "reached": True, "exposure": 1.0,
-             "value": 0.0 if not second else float(person % 2)} for person in range(12) for second in (0, 1)]
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + first, "first": float(first), "reached": True, "exposure": 1.0,
+             "value": 0.0 if not first else float(person % 2)} for person in range(12) for first in (0, 1)]
     values = pd.DataFrame(rows)
     one = Contrast(kind, "a", "b")
     MODELS[kind](one, values, np.array([float(person % 2) for person in range(12)]))
@@ -327,9 +347,9 @@ def test_a_test_of_a_dozen_participants_finds_nothing_no_more_often_than_it_may(
     found, tried = 0, 0
     for seed in range(100):
         source = np.random.default_rng(seed)
-        rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + second) % 2, "second": float(second), "reached": True, "exposure": 1.0,
+        rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + first) % 2, "first": float(first), "reached": True, "exposure": 1.0,
                  "value": float(source.poisson(2.0 * ability) if kind == "count" else source.random() < ability / (1 + ability))}
-                for person in range(12) for ability in [source.gamma(4.0, 1 / 4.0)] for second in (0, 1) for _ in range(2)]
+                for person in range(12) for ability in [source.gamma(4.0, 1 / 4.0)] for first in (0, 1) for _ in range(2)]
         one = Contrast(kind, "a", "b")
         try:
             with warnings.catch_warnings():

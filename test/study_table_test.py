@@ -146,6 +146,19 @@ def test_a_trial_whose_bag_is_recorded_as_bad_agrees_without_one(tmp_path):
     assert verify._bag(None, tmp_path, {"bag": "ok"}) == "is missing"
 
 
+def test_a_bag_that_a_power_cut_left_open_is_counted_until_it_is_repaired(work):
+    class Cut(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            super().trial(participant, step, attempt, folder, lock)
+            (folder / f"trial-{len(self.driven)}" / "trial.bag.active").write_bytes(b"#ROSBAG V2.0")
+    rest(begin(work.study, driver=Cut))
+    _, trial = trial_of(work.study)
+    sentences, bad = verify.verify(work.study, work.study.progress(), "true")
+    assert bad == 2 and f"files equal, journal no journal, bag was not closed: \"rosbag reindex {trial}/trial.bag.active\" repairs it" in sentences[0]
+    (trial / "trial.bag.active").rename(trial / "trial.bag")
+    assert verify.verify(work.study, work.study.progress(), "true")[1] == 1, "the other one"
+
+
 def test_answers_that_were_given_are_not_asked_again(work):
     begun = work()
     asked = []

@@ -3,7 +3,8 @@
 doc/study.md shows how, from plan to report.
 
 Exit codes
-0: it is done. 1: it broke off. 2: a wrong argument, or a wrong plan.
+0: it is done. 1: it broke off, something differs (verify), or other worlds are
+recommended (check). 2: a wrong argument, or a wrong plan.
 """
 import os
 from types import SimpleNamespace
@@ -32,6 +33,20 @@ def _tool(package, name):
     return path
 
 
+def _accept(parameters):
+    from navvi_cli.arguments import LaunchFile, words_for
+    from navvi_cli.session import check_parameters, nodes_of
+    from navvi_cli.workspace import build, enter, is_current
+    try:
+        words = words_for(LaunchFile("live.launch"), parameters)
+        if not is_current(*nodes_of(words).values()):
+            build("session")
+        enter()
+        check_parameters(words)
+    except Failure as problem:
+        raise StudyError(problem.sentence) from None
+
+
 def _draw(world, words, path, driven=()):
     """Draws a world from above. \\param driven  see maps.world"""
     from navvi_cli import maps
@@ -52,7 +67,7 @@ def _guarded(name, action):
         if places.WORKSPACE and name in ("report", "rehearse"):
             shell("install_packages", "report")
         os.umask(0o077)  # what a study holds is its owner's alone
-        TOOLS.update(tool=_tool, version=version, navvi=places.ROOT / "navvi", draw=_draw)
+        TOOLS.update(tool=_tool, accept=_accept, version=version, navvi=places.ROOT / "navvi", draw=_draw)
         try:
             return action(args)
         except StudyError as problem:

@@ -1,7 +1,8 @@
 """The actions of `./navvi study`: each a function with its help and its arguments. Nothing here knows how programs are built."""
 from .errors import StudyError
 
-# Set by the command: tool(PACKAGE, PROGRAM) builds a program and returns its path; navvi and version are of the product.
+# Set by the command: tool(PACKAGE, PROGRAM) builds a program and returns its path; accept(PARAMETERS) raises StudyError for those that a
+# session refuses; navvi and version are of the product.
 TOOLS = {}
 ACTIONS = {}  # by name
 
@@ -25,6 +26,14 @@ ONLY = argument("--only", metavar="MEASURE", help="only the tables, and the figu
 
 
 def opened(args):
+    """The study. Raises StudyError where its journal has lost rows."""
+    study = _opened(args)
+    if lost := study.unrecorded():
+        raise StudyError("\n  ".join(lost))
+    return study
+
+
+def _opened(args):
     from .study import Study
     return Study.of(args.plan)
 
@@ -39,15 +48,15 @@ def check(args):
     driver meets it.
 
     Exit codes
-    0: the plan can be run. 1: it can, and its sets of worlds are not alike.
-    2: it cannot, and why.
+    0: the plan can be run. 1: it can, and other worlds are recommended: sets are
+    not alike, or the reference driver does not arrive. 2: it cannot, and why.
     """
     from . import overview, plan_file, worlds
     planned = plan_file.load(args.plan)
     print("\n".join(overview.schedule(planned)))
     if args.no_worlds:
         return 0
-    worlds.require_files(planned, TOOLS["tool"])
+    _require_runnable(planned)
     lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
     print("\n".join(["", *lines]))
     for picture in worlds.pictures(planned, TOOLS["draw"]) if args.pictures else []:
@@ -66,9 +75,9 @@ def freeze(args):
     Exit codes
     0: frozen. 2: a wrong plan, or nothing to freeze.
     """
-    from . import overview, preregistration, worlds
+    from . import overview, preregistration
     study = opened(args)
-    worlds.require_files(study.plan, TOOLS.get("tool"))
+    _require_runnable(study.plan)
     changes = study.freeze(TOOLS["version"](), args.reason)
     print(f"navvi: the plan is frozen: {study.plan.hash()}")
     for change in changes or []:
@@ -117,7 +126,7 @@ def stop(args):
     Exit codes
     0: ended, or nothing was running. 2: not planned, or it does not end.
     """
-    study = opened(args)
+    study = _opened(args)
     ended = study.stop(study.progress().person(args.participant).name)
     print("navvi: ended: " + ", ".join(f"{pid} ({name})" for pid, name in ended.items()) + "." if ended else f"navvi: nothing of {args.participant} is running.")
 
@@ -153,8 +162,8 @@ def status(args):
     0: printed. 2: a wrong plan, or a damaged record.
     """
     from . import overview
-    study = opened(args)
-    print("\n".join(overview.status(study, study.progress())))
+    study = _opened(args)
+    print("\n".join([*overview.status(study, study.progress()), *study.unrecorded()]))
 
 
 @action(PLAN, argument("what", metavar="TRIAL", help="a trial by its name, such as sub-03/trial-20260101T120000Z, or the code of a participant."),
@@ -232,11 +241,12 @@ def verify(args):
     0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
     """
     from . import verify
-    study = opened(args)
+    study = _opened(args)
     sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
     lines, counts, lost = verify.notes_and_answers(study, study.progress())
-    print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
-    return 1 if bad or lost else 0
+    unrecorded = study.unrecorded()
+    print("\n".join([*sentences, *lines, *unrecorded, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
+    return 1 if bad or lost or unrecorded else 0
 
 
 @action(PLAN, argument("--bids", action="store_true", help="the form, the one there is."))
@@ -268,12 +278,14 @@ def report(args):
     _write_report(study.blinded() if args.blind or study.concealed else study, args.only, rehearsed=False)
 
 
-@action(PLAN)
+@action(PLAN, argument("--reason", metavar="TEXT", help="why the conditions are named before all participants are through."))
 def unblind(args):
     """Freeze a blinded analysis; the reports that follow name the conditions.
 
     For a plan with \"blind: true\", whose reports have letters until then. The
-    journal keeps the day and the SHA-256 of the blinded report of today.
+    journal keeps the day and the SHA-256 of the blinded report of today. Before all
+    participants are through it needs a reason; the report has it, and how many
+    trials came after.
 
     Exit codes
     0: frozen, and both reports are written. 2: not blinded, or frozen before.
@@ -282,8 +294,12 @@ def unblind(args):
     study = opened(args)
     if not study.concealed:
         raise StudyError("there is nothing to unblind: the plan lacks \"blind: true\", or its analysis was frozen before.")
+    early = not study.progress().over
+    if early and not args.reason:
+        raise StudyError("not all participants are through, and those who lead them would know the conditions; allowed now is with --reason.")
+    reason = _reason(args.reason) if early else ""
     _write_report(study.blinded(), None, rehearsed=False)
-    study.journal.append("analysis", report=sum_of(study.folder / "report-blind.html"), version=TOOLS["version"]())
+    study.journal.append("analysis", report=sum_of(study.folder / "report-blind.html"), version=TOOLS["version"](), reason=reason)
     _write_report(study, None, rehearsed=False)
 
 
@@ -301,6 +317,18 @@ def rehearse(args):
     from . import plan_file, rehearsal
     planned = plan_file.load(args.plan)
     _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
+
+
+def _require_runnable(plan):
+    """Raises StudyError for what a session would refuse while the participant waits."""
+    from . import worlds
+    worlds.require_files(plan, TOOLS.get("tool"))
+    for condition in plan.conditions:
+        try:
+            if condition.parameters:
+                TOOLS["accept"]([f"{name}:={value}" for name, value in condition.parameters])
+        except StudyError as problem:
+            raise StudyError(f"{plan.file}: condition {condition.name}: {problem}") from None
 
 
 def _live_session(study, typed):

@@ -20,11 +20,11 @@ MOST_ERROR = 5.0  # of a logarithm of a ratio, beyond which there is no estimate
 
 @dataclass
 class Contrast:
-    """One measure, the second condition against the first."""
+    """One measure, the first condition against the second."""
     measure: str
     first: str
     second: str
-    differences: pd.Series = None  # second minus first, by participant with both
+    differences: pd.Series = None  # first minus second, by participant with both
     difference: float = None  # their mean
     low: float = None  # 95 % bootstrap over participants
     high: float = None
@@ -105,7 +105,7 @@ class Analysis:
         if means.empty or not {first, second} <= set(means):
             result.note = "nobody has both conditions"
             return result
-        result.differences = means[second] - means[first]
+        result.differences = means[first] - means[second]
         differences = result.differences.to_numpy()
         result.difference = differences.mean()
         result.low, result.high = interval(differences)
@@ -116,7 +116,7 @@ class Analysis:
         if within:
             result.note = _late(name, values)
             return _equivalence(result, differences)
-        values = values.assign(second=lambda rows: (rows["condition"] == second).astype(float))
+        values = values.assign(first=lambda rows: (rows["condition"] == first).astype(float))
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
@@ -195,7 +195,7 @@ def corrected(contrasts, method):
 
 def _predictors(values):
     """The condition, and the place in the order where that varies."""
-    columns = {"const": 1.0, "second": values["second"]}
+    columns = {"const": 1.0, "first": values["first"]}
     if values["order"].nunique() > 1:
         columns["order"] = values["order"] - values["order"].mean()
     return pd.DataFrame(columns, index=values.index)
@@ -211,7 +211,7 @@ def _of_few(fit, values):
     """Estimate, error, p and quantile of a GEE with few participants: its errors after Mancl and DeRouen (Biometrics 57, 2001), which do not
     come out too small, and Student's distribution with as many degrees of freedom as participants beyond the model's terms."""
     free = max(1, values["participant"].nunique() - len(fit.params))
-    estimate, error = fit.params["second"], fit.bse["second"]
+    estimate, error = fit.params["first"], fit.bse["first"]
     if not error > LEAST_ERROR:
         raise ValueError("all participants differ alike between the conditions")
     return estimate, error, 2 * scipy.stats.t.sf(abs(estimate / error), free), scipy.stats.t.ppf(0.975, free)
@@ -223,7 +223,7 @@ def _count(result, values, differences):
     predictors, exposure, counts = _predictors(values), values["exposure"].to_numpy(), values["value"].to_numpy()
     if counts.sum() == 0:
         raise ValueError("nothing was counted")
-    if values.groupby("second")["value"].sum().min() == 0:
+    if values.groupby("first")["value"].sum().min() == 0:
         result.note = "nothing was counted under one of the conditions, so that no ratio can be estimated"
         return _number(result, values, differences)
     plain = sm.GLM(counts, predictors, family=sm.families.Poisson(), exposure=exposure).fit()
@@ -237,11 +237,11 @@ def _count(result, values, differences):
 def _time(result, values, _):
     """Cox, stratified by participant; who did not arrive is censored at the limit."""
     reached = values["reached"].astype(int)
-    if reached.groupby(values["second"]).sum().min() == 0:
+    if reached.groupby(values["first"]).sum().min() == 0:
         raise ValueError("nobody arrived under one of the conditions")
     predictors = _predictors(values).drop(columns="const")
     fit = sm.PHReg(values["value"], predictors, status=reached, strata=values["participant"], ties="efron").fit()
-    at = list(predictors).index("second")
+    at = list(predictors).index("first")
     if not np.isfinite([fit.params[at], fit.bse[at]]).all() or fit.bse[at] > MOST_ERROR:
         return _log_rank(result, values, reached)
     return _ratio(result, "Cox, stratified by participant, censored at the limit", "hazard ratio of arriving", fit.params[at], fit.bse[at], fit.pvalues[at])
@@ -249,7 +249,7 @@ def _time(result, values, _):
 
 def _log_rank(result, values, reached):
     """The stratified log-rank test, for all participants being quicker in the same condition: the ratio has no bound then, p has."""
-    model = sm.PHReg(values["value"], values[["second"]], status=reached, strata=values["participant"], ties="efron")
+    model = sm.PHReg(values["value"], values[["first"]], status=reached, strata=values["participant"], ties="efron")
     score, information = float(model.score(np.zeros(1))[0]), -float(model.hessian(np.zeros(1))[0, 0])
     if information <= 0:
         raise ValueError("no two times of a participant can be compared")
@@ -259,7 +259,7 @@ def _log_rank(result, values, reached):
 
 def _share(result, values, differences):
     """Logistic by GEE, participants as clusters."""
-    if values.groupby("second")["value"].mean().isin([0.0, 1.0]).any():
+    if values.groupby("first")["value"].mean().isin([0.0, 1.0]).any():
         result.note = "all or none under one of the conditions, so that no ratio can be estimated"
         return _number(result, values, differences)
     fit = sm.GEE(values["value"], _predictors(values), groups=values["participant"], family=sm.families.Binomial(),

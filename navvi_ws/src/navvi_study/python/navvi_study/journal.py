@@ -23,6 +23,7 @@ BEGIN = "0" * 64  # before the first row
 class Journal:
     def __init__(self, path):
         self.path = Path(path)
+        self.last = self.path.with_suffix(".last")  # a copy of the last row, by which a loss of rows at the end is seen
         self._good, self._known = 0, []  # bytes that were checked, and their rows: what is in the file never changes
 
     def rows(self):
@@ -35,6 +36,8 @@ class Journal:
         fields = {name: plain(value) if isinstance(value, str) else value for name, value in fields.items()}
         with self._locked() as file:
             rows = self._read(file)
+            if lost := self._lost(rows):
+                raise StudyError(lost)
             row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": getpass.getuser(),
                    "type": kind, **fields, "before": rows[-1]["hash"] if rows else BEGIN}
             row["hash"] = hash_of(row)
@@ -42,7 +45,21 @@ class Journal:
                 write_whole(file, (json.dumps(row, ensure_ascii=False) + "\n").encode(), self._good)
             except OSError as problem:
                 raise StudyError(f"{self.path} cannot be written: {problem.strerror}. Nothing is begun; mend that and try again.") from None
+            with contextlib.suppress(OSError):  # the row is safe; a copy that is missing or torn tells of no loss
+                self.last.write_text(json.dumps(row) + "\n")
             return row
+
+    def lost(self):
+        """A sentence where rows at the end, or all, were lost; empty otherwise."""
+        with self._locked() as file:
+            return self._lost(self._read(file))
+
+    def _lost(self, rows):
+        for last in read_lines(self.last, {"seq": int, "type": str, "hash": str})[0]:
+            if last["hash"] not in [row["hash"] for row in rows[last["seq"] - 1:last["seq"]]]:
+                what = " ".join(str(last[key]) for key in ("type", "participant", "step") if key in last)
+                return f"{self.path} lacks row {last['seq']} ({what}), which was written; restore it from a copy."
+        return ""
 
     @contextlib.contextmanager
     def _locked(self):

@@ -57,7 +57,7 @@ def balance(plan):
 
 def question(one):
     from .measures import MEASURES
-    return f"{MEASURES[one.measure].label.lower()}, {one.second} minus {one.first}, of {MEASURES[one.measure].of}"
+    return f"{MEASURES[one.measure].label.lower()}, {one.first} minus {one.second}, of {MEASURES[one.measure].of}"
 
 
 def status(study, progress):

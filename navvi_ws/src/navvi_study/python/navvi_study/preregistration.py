@@ -83,4 +83,4 @@ def sample(plan):
 
 def hypothesis(one):
     measure, within = MEASURES[one.measure], getattr(one, "within", 0)
-    return f"{measure.label}: {one.second} and {one.first} {f'are equivalent within {within:g} ({measure.unit})' if within else 'differ'}."
+    return f"{measure.label}: {one.first} and {one.second} {f'are equivalent within {within:g} ({measure.unit})' if within else 'differ'}."

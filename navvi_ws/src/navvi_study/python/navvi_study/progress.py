@@ -67,6 +67,7 @@ class Progress:
         self.plan = plan
         self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
         self.freezes, self.analyses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis"))
+        self.unblinded = sum(row["type"] == "end" and bool(row["trial"]) for one in self.analyses for row in rows[one["seq"]:])  # trials
         for row in rows:
             if row["type"] not in ("freeze", "analysis"):
                 getattr(self, "_" + row["type"])(row)

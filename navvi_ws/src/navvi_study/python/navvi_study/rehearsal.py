@@ -37,9 +37,10 @@ def _goes_on(plan, folder, version):
     if not (folder / "journal.jsonl").is_file():
         return False
     try:
-        progress = Study(plan, folder).progress()
+        study = Study(plan, folder)
+        progress, lost = study.progress(), study.unrecorded()
     except StudyError:  # damaged
         return False
     frozen = progress.freezes
-    same = bool(frozen) and (frozen[-1]["plan"], frozen[-1]["version"]) == (plan.hash(), version)
+    same = bool(frozen) and not lost and (frozen[-1]["plan"], frozen[-1]["version"]) == (plan.hash(), version)
     return same and not all(progress.complete(person) for person in progress.people.values())

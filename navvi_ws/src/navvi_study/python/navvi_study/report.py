@@ -63,7 +63,9 @@ def opening(progress):
     if progress.plan.order == "drawn":
         drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 is in the journal since then." if progress.over else
                  " Orders are drawn by a seed that is printed here once nobody is left to begin.")
-    blind = "".join(f" Conditions were letters until {row['utc'][:10]}, when the blinded report had the SHA-256 {row['report']}." for row in progress.analyses)
+    blind = "".join(f" Conditions were letters until {row['utc'][:10]}, when the blinded report had the SHA-256 {row['report']}; "
+                    + (f"not all participants were through, for the reason \"{row['reason']}\"; " if row.get("reason") else "")
+                    + f"trials after that: {progress.unblinded}." for row in progress.analyses)
     return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}{blind}"
 
 
@@ -170,7 +172,7 @@ def sentence(analysis, one):
     if one.difference is None:
         return f"{measure.label}, {compared(one)}: {one.note}."
     if abs(one.difference) < 1e-9:
-        return f"{measure.label}: {one.second} and {one.first} have the same mean over {one.participants} participants."
+        return f"{measure.label}: {one.first} and {one.second} have the same mean over {one.participants} participants."
 
     def size(value):
         return f"{scale * abs(value):.{digits}f}"
@@ -187,7 +189,7 @@ def sentence(analysis, one):
         near, far = (one.low, one.high) if sign > 0 else (one.high, one.low)
         interval = f" [from {size(near)} {measure.more[int(near > 0)]} to {size(far)} {more}]"
     tied = int((one.differences == 0).sum())
-    return (f"In condition {one.second}, {told} than in {one.first}{interval}; {more} in {one.agreeing} of {one.participants} pairs"
+    return (f"In condition {one.first}, {told} than in {one.second}{interval}; {more} in {one.agreeing} of {one.participants} pairs"
             + (f", alike in {tied}." if tied else "."))
 
 
@@ -218,7 +220,7 @@ def contrast_row(analysis, one):
 
 
 def compared(one):
-    return f"{one.second} minus {one.first}"
+    return f"{one.first} minus {one.second}"
 
 
 def alike(analysis, name):

@@ -46,6 +46,18 @@ class Study:
             raise StudyError(f"{self.seed_file} is missing or changed since the plan was frozen, and nobody's order is known without it; restore it from a copy.")
         return found
 
+    def unrecorded(self):
+        """A sentence for each loss of rows that the journal's copy of its last row shows, and for each record on the disk without its row."""
+        if not self.folder.exists():
+            return []
+        records = {path: frozen["hash"] for path in sorted(self.folder.glob("frozen*.json")) if (frozen := _read_frozen(path))}
+        records.update({path: path for name in self.plan.participants for path in sorted(self.home(name).glob("*-a[0-9]*")) if path.is_dir()})
+        progress = self.progress()  # after the files, to each of which there was a row before
+        rows = {row["plan"] for row in progress.freezes} | {
+            self.attempt_folder(name, attempt.step, attempt.number) for name, person in progress.people.items() for attempt in person.attempts}
+        return list(filter(None, [self.journal.lost()])) + [
+            f"{path} has no row in {self.journal.path}, which has lost rows; restore the journal from a copy." for path, key in records.items() if key not in rows]
+
     def _allocation(self):
         """What the journal keeps of the seed, by which it can be verified once it is printed."""
         return hashlib.sha256(self.plan.seed.encode()).hexdigest()
@@ -65,13 +77,10 @@ class Study:
         freezes = self.progress().freezes
         if not freezes:
             return None
-        for path in sorted(self.folder.glob("frozen*.json")):
-            try:
-                values = json.loads(path.read_bytes())
-                if values["hash"] == freezes[-1]["plan"]:
-                    return values["plan"]
-            except (OSError, ValueError, LookupError, TypeError):
-                continue  # damaged
+        for path in self.folder.glob("frozen*"):  # also one whose freeze broke off before it had its name
+            values = _read_frozen(path)
+            if values and values["hash"] == freezes[-1]["plan"]:
+                return values["plan"]
         raise StudyError(f"{self.folder} lacks the file of the frozen plan, or it is damaged; restore it from a copy.")
 
     def freeze(self, version, reason):
@@ -87,9 +96,10 @@ class Study:
         if self.plan.order == "drawn" and not self.plan.seed:
             self.plan = dataclasses.replace(self.plan, seed=secrets.token_hex(16))
             write_safely(self.seed_file, self.plan.seed + "\n")
-        write_safely(file, json.dumps({"hash": self.plan.hash(), "plan": self.plan.values()}, indent=1) + "\n")
+        write_safely(file.with_suffix(".next"), json.dumps({"hash": self.plan.hash(), "plan": self.plan.values()}, indent=1) + "\n")
         self.journal.append("freeze", plan=self.plan.hash(), version=version, reason=reason or "", changes=changes or [],
                             **({"allocation": self._allocation()} if self.plan.order == "drawn" else {}))
+        os.replace(file.with_suffix(".next"), file)  # a file of that name has a row
         return changes
 
     def require_frozen(self):
@@ -237,6 +247,13 @@ def _files_of(pid):
         for name in os.listdir(f"/proc/{pid}/fd"):
             with contextlib.suppress(OSError):  # closed meanwhile
                 yield os.stat(f"/proc/{pid}/fd/{name}")
+
+
+def _read_frozen(path):
+    """Hash and plan of what was frozen; None where the file is missing or damaged."""
+    with contextlib.suppress(OSError, ValueError, LookupError, TypeError):
+        values = json.loads(path.read_bytes())
+        return {key: values[key] for key in ("hash", "plan")}
 
 
 def read_summary(folder):

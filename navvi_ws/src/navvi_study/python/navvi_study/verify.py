@@ -6,6 +6,7 @@ from .journal import sum_of
 from .study import FIELDS
 
 EQUAL = "equal"
+OPEN = "trial.bag.active"  # what a power cut leaves of a bag
 
 
 def verify(study, progress, count_trial):
@@ -40,7 +41,7 @@ def notes_and_answers(study, progress):
 
 def _files(folder, sums):
     """They are as they were when the trial ended."""
-    wrong = [name for name, known in sums.items() if sum_of(folder / name) != known]
+    wrong = [name for name, known in sums.items() if name != OPEN and sum_of(folder / name) != known]  # that is to become a bag
     return "differ: " + ", ".join(wrong) if wrong else EQUAL if sums else "no sums"
 
 
@@ -52,6 +53,8 @@ def _journal(program, folder):
 
 
 def _bag(program, folder, row):
+    if (folder / OPEN).is_file():
+        return f"was not closed: \"rosbag reindex {folder / OPEN}\" repairs it; then rename it trial.bag"
     if not (folder / "trial.bag").is_file():
         recorded = row.get("bag", "n/a")
         return "is missing" if recorded == "ok" else "no bag" if recorded in ("n/a", "none") else f"no whole bag, recorded as {recorded}"
