@@ -4,13 +4,14 @@ import os
 import socket
 import subprocess
 import sys
+import types
 
 import pytest
 
 from conftest import free_port
 from sessions import ROOT
 from navvi_cli import arguments, network, parser, session, trials, worlds
-from navvi_cli.commands import replay, run
+from navvi_cli.commands import check, replay, run, show
 from navvi_cli.main import command_names, parser_of
 from navvi_cli.say import Failure
 
@@ -90,7 +91,6 @@ def test_a_missing_option_is_named_with_its_values_and_without_brackets():
 
 
 def test_a_full_disk_is_a_sentence_with_exit_code_2(capsys, monkeypatch):
-    import types
     from navvi_cli import main
 
     def full(words):
@@ -323,6 +323,28 @@ def test_a_session_ends_in_at_most_eight_lines_with_its_result_last(trial, more,
     assert ("bag: missing" in lines) == ("bag" in more)
 
 
+@pytest.mark.parametrize("damage", [
+    lambda data: data[:2 * len(data) // 3], lambda data: data[:-1], lambda data: b"", lambda data: data.replace(b"reached", b"\xff\xfe"),
+    lambda data: data.replace(b"result", b"reslut"), lambda data: data + data], ids=["cut", "no_end", "empty", "bytes", "title", "twice"])
+def test_a_damaged_summary_is_named(damage, trial):
+    path = trial() / "summary.csv"
+    path.write_bytes(damage(path.read_bytes()))
+    assert f"{path} is damaged" in refusal(lambda: trials.summary(path.parent))
+
+
+@pytest.mark.parametrize("last, reason, repeated, counted, code", [
+    ("TRIAL_END", "goal_reached", 0, 0, 0), ("TRIAL_END", "goal_reached", 0, 1, 1), ("TRIAL_END", "goal_reached", 1, 0, 1), ("PROGRESS", "no_end", 0, 0, 0),
+    ("PROGRESS", "goal_reached", 0, 2, "has no end")])
+def test_check_and_show_hold_the_journal_against_the_summary(last, reason, repeated, counted, code, trial, monkeypatch):
+    args = types.SimpleNamespace(trial=journal_of(trial(reason=reason), (100.0, "TRIAL_START"), (110.0, last)), csv=False)
+    monkeypatch.setattr(check, "tool", lambda package, name: name)
+    monkeypatch.setattr(check, "show", lambda name, *words: {"check_trial": repeated, "count_trial": counted}[name])
+    if code == "has no end":
+        assert code in refusal(lambda: check.run(args), 1) and code in refusal(lambda: show.run(args), 1)
+    else:
+        assert check.run(args) == code and not show.run(args)
+
+
 def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_closed_after_it(trial, monkeypatch, capsys):
     monkeypatch.setattr("navvi_cli.workspace.show", lambda *words: 0)
     out = trial().parent / "out"
@@ -355,6 +377,7 @@ def test_a_replay_begins_some_seconds_before_the_event_that_is_named(tmp_path):
     assert replay.moment(trial, "cue:1") == 0.0 and replay.moment(trial, "73.5") == 73.5
     for wrong, sentence in {"collision:3": "has 2 of these", "colision": "collision, cue, trial_start", "collision:0": "allowed are", "-3": "allowed are"}.items():
         assert sentence in refusal(lambda: replay.moment(trial, wrong))
+    assert "lacks it" in refusal(lambda: replay.moment(journal_of(tmp_path / "cut", (110.0, "COLLISION")), "3"))
 
 
 def test_a_replay_is_paused_and_stepped_by_keys(capsys):
