@@ -16,10 +16,10 @@ CHOICES = {
 NUMBER = r"[0-9]+(\.[0-9]+)?", "numbers, 0 or more"
 COORDINATE = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"
 FORMS = {
-    "limit": NUMBER, "rate": NUMBER, "skip": NUMBER, "pace": NUMBER, "port": (r"[0-9]{1,5}", "numbers of ports"),
+    "limit": NUMBER, "rate": (r"(?=.*[1-9])" + NUMBER[0], "numbers above 0"), "skip": NUMBER, "pace": NUMBER, "port": (r"[0-9]{1,5}", "numbers of ports"),
     "robot": (r"[A-Za-z0-9.-]{1,253}(:[0-9]{1,5})?", "hosts, such as 10.8.0.2 or 10.8.0.2:11312"),
     "address": (r"([0-9]{1,3}\.){3}[0-9]{1,3}", "addresses of this machine, such as 10.8.0.2"),
-    "seed": (r"[0-9]{1,18}", "whole numbers, 0 or more"),
+    "seed": (r"[0-9]{1,10}", "whole numbers from 0 to 2147483647"),
     "start": (rf"(|{COORDINATE},{COORDINATE},{COORDINATE})", "values of the form x,y,yaw in m and rad"),
     "goal": (rf"(|{COORDINATE},{COORDINATE})", "values of the form x,y in m"),
     "participant": (r"[A-Za-z0-9_-]{1,32}|n/a", "up to 32 letters, digits, - and _, such as sub-01"),
@@ -126,6 +126,19 @@ def parameter(word):
     if not re.fullmatch(r"[^:=]+:=.*", word, re.S):
         fail(f"unexpected argument \"{word}\"; only parameters are allowed beside the rest, and look like name:=value.", 2)
     return word
+
+
+def number(name, least, most, kind=int):
+    """The argument type of a number in a range, in the words of a sentence that refuses another."""
+    def read(word):
+        try:
+            value = kind(word)
+        except ValueError:
+            value = None
+        if value is None or not least <= value <= most:
+            fail(f"{name} is \"{word}\"; allowed are {'whole numbers' if kind is int else 'numbers'} from {least} to {most}.", 2)
+        return value
+    return read
 
 
 def trial_in(word, holds="trial.bag"):

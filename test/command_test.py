@@ -158,7 +158,7 @@ def test_words_become_values_and_parameters(launch_file):
 
 @pytest.mark.parametrize("word, sentence", [
     ("fast", "arguments look like name:=value"), ("gone:=1", "\"gone\" is unknown; known are: seed view"), ("inner:=1", "is unknown"),
-    ("version:=1", "is unknown"), ("sim_parameters:={}", "is unknown"), ("seed:=$(env HOME)", "holds \"$(\""), ("seed:=-1", "whole numbers, 0 or more"),
+    ("version:=1", "is unknown"), ("sim_parameters:={}", "is unknown"), ("seed:=$(env HOME)", "holds \"$(\""), ("seed:=-1", "whole numbers from 0 to 2147483647"),
     ("view:=wide", "allowed are: chase top forward"), ("nav/x:=1", "those of sim can be given"), ("sim/seed:=1", "allowed is seed:=1"),
     ("sim/mode:=1", "the session itself sets it"), ("seed:=1 seed:=2", "given twice"), ("person:=a person:=b", "given twice"),
     ("see[d]:=1", "\"see[d]\" is unknown"),
@@ -170,10 +170,11 @@ def test_a_wrong_word_is_refused(launch_file, word, sentence):
 @pytest.mark.parametrize("word, good", [
     ("start:=-6.5,-5,1.57", True), ("start:=1,2", False), ("start:=", True), ("goal:=0.2,-1", True), ("goal:=1e1,.5", True), ("goal:=1", False),
     ("limit:=30", True), ("limit:=-1", False), ("participant:=sub-01", True), ("participant:=Ann Smith", False), ("person:=anna", True),
-    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
+    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False), ("seed:=99999999999", False), ("rate:=0", False), ("rate:=0.5", True), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
 ])
 def test_the_form_of_a_value_is_checked(word, good):
-    check = lambda: arguments.words_for(arguments.LaunchFile("live.launch"), [word])  # noqa: E731
+    launch = "replay.launch" if word.startswith("rate") else "live.launch"
+    check = lambda: arguments.words_for(arguments.LaunchFile(launch), [word])  # noqa: E731
     assert check() is not None if good else "allowed are" in refusal(check)
 
 

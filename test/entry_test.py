@@ -66,6 +66,12 @@ def test_shell_scripts_are_clean():
     (["test", "no_such_" + "word"], "no test's name contains \"no_such_word\""),
     (["bench", "trials", "--world=nope"], "no world and no file has the name \"nope\""),
     (["batch", "--worlds=nope", "--out=/nonexistent"], "no world and no file has the name \"nope\""),
+    *((["batch", "--out=/nonexistent", f"--{option}={value}"], f"--{option} is \"{value}\"; allowed are whole numbers from {least} to")
+      for option, least, values in (("jobs", 1, ("0", "-2", "1.5")), ("limit", 1, ("-1", "nan")), ("cache", 0, ("-5", "x"))) for value in values),
+    (["batch", "--out=/nonexistent", "--tell=nan"], "--tell is \"nan\"; allowed are numbers from 0 to 86400."),
+    (["batch", "--out=/nonexistent", "--seeds=1-999999999999"], "--seeds has"),
+    (["batch", "--out=/nonexistent", "--people=drawn:1-1000000", "--seeds=1-2"], "these make 2000000 trials"),
+    (["test", "hours", "nan"], "the time in hours is \"nan\"; allowed are"),
     (["completion", "fish"], "allowed are: bash zsh"),
     (["navmesh"], "missing: MAP"),
     (["man", "-x"], "\"-x\" is not taken here"),
