@@ -142,8 +142,10 @@ def number(name, least, most, kind=int):
 
 
 def trial_in(word, holds="trial.bag"):
-    """The path of a trial's folder."""
+    """The path of a trial's folder, also by the folder that holds it alone, as records of a batch are."""
     path = Path(os.path.abspath(word))
+    inside = [*path.glob(f"trial-*/{holds}")]
+    path = inside[0].parent if len(inside) == 1 else path
     if not (path / holds).is_file():
         fail(f"{word} holds no {holds}; the folder of a trial is allowed, such as trials/trial-20260101T120000Z.", 2)
     return path

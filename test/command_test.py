@@ -1,4 +1,5 @@
 """The parts of the command by themselves: arguments, launch files, the lock of a port, what a session prints, and its end."""
+import contextlib
 import csv
 import os
 import socket
@@ -298,6 +299,14 @@ def test_what_ended_a_session_is_remembered(tmp_path):
 ROW = {"trial": "trial-1", "world": "busy", "seed": "3", "result": "reached", "reason": "goal_reached", "elapsed_s": "28.550", "path_length_m": "31.2",
        "shelf_collision_count": "1", "obstacle_collision_count": "0", "safe_stop_count": "0", "cues_spoken": "4", "bag": "ok",
        **{f"figure_{number}": "1" for number in range(40)}}
+
+
+def test_a_record_of_a_batch_is_found_by_its_number(tmp_path):
+    for name in "trial-busy-1", "trial-busy-2":
+        with pytest.raises(Failure) if name.endswith("2") else contextlib.nullcontext():
+            (tmp_path / name).mkdir()
+            (tmp_path / name / "trial.bag").write_text("")
+            assert arguments.trial_in(str(tmp_path)) == tmp_path / name
 
 
 @pytest.fixture
