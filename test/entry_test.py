@@ -81,6 +81,8 @@ def test_shell_scripts_are_clean():
     (["watch", "port:=1"], "no session runs at port:=1"),
     (["watch", "a/b/c"], "holds no trial.bag"),
     (["robot", "check", "wheel:=/a"], "\"wheel\" is unknown"),
+    (["robot", "check", "perception/no_return:=fre"], "perception_node refuses this: "),
+    (["robot", "check", "perception/foo:=1"], "the key \"foo\" is unknown"),
     (["replay"], "missing: TRIAL"),
     (["calibrate"], "person:=NAME is needed"),
     (["glossary", "world:=busy"], "\"world\" is unknown"),
