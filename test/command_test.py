@@ -2,6 +2,7 @@
 import contextlib
 import csv
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -89,6 +90,16 @@ def test_a_missing_option_is_named_with_its_values_and_without_brackets():
     study.arguments(found)
     assert refusal(lambda: found.parse_args(["withdraw", "plan.yaml", "sub-04"])) == (
         "missing: --data; allowed is: ./navvi study withdraw PLAN PARTICIPANT --data delete|keep")
+
+
+def test_usage_names_the_values_of_an_option_and_breaks_between_words():
+    from navvi_cli.commands import batch, study
+    helps = {}
+    for command in batch, study:
+        found = parser.Parser(prog="./navvi", text=command.__doc__)
+        command.arguments(found)
+        helps[command] = found.format_help()
+    assert "--records all|failed|none: " in helps[batch] and re.search(r"^\./navvi [a-z|]+\|\n[a-z|]+ \.\.\.$", helps[study], re.M)
 
 
 def test_a_full_disk_is_a_sentence_with_exit_code_2(capsys, monkeypatch):
