@@ -44,7 +44,8 @@ class LaunchFile:
         self.fixed = fixed_parameters(root)
 
     def names(self):
-        return [*self.arguments, *(["person"] if "feedback" in self.parts else [])]
+        return [*self.arguments, *(["person"] if "feedback" in self.parts else []),
+                *(["robot"] if self.path.name in ("live.launch", "person.launch") else [])]
 
     def help(self):
         return ["Each argument with its default:",
@@ -118,7 +119,7 @@ def words_for(launch, words, choices=()):
     if person:
         Words(person, ["person"])
     words = [f"feedback/{word}" if word in person else word for word in words]
-    return Words(words, launch.arguments, launch.parts, launch.fixed, choices)
+    return Words(words, launch.names(), launch.parts, launch.fixed, choices)
 
 
 def parameter(word):

@@ -250,7 +250,8 @@ def test_a_port_on_which_anybody_listens_is_not_ours(locks):
     ("\x1b[33m[ WARN] [1.0]: slow\x1b[0m", "navvi: warning: slow"),
     ("[ERROR] [1.0, 2.0]: bad", "navvi: error: bad"),
     ("\x1b]2;title\x07[ INFO] [1.0]: noise", ""),
-    ("REQUIRED process [trial_node-5] has died!", "navvi: trial_node has ended, and the session with it."),
+    ("REQUIRED process [trial_node-5] has died!", "navvi: the session has ended."),
+    ("REQUIRED process [sim_node-5] has died!", "navvi: sim_node has ended, and the session with it."),
     ("[nav_node-2] process has died [pid 7, exit code -11, cmd x].", "navvi: warning: nav_node has ended with exit code -11 and is started anew."),
     ("RLException: no such file", "navvi: error: no such file"),
 ])
@@ -332,7 +333,7 @@ def trial(tmp_path):
 
 
 @pytest.mark.parametrize("more, code, last", [
-    ({}, 0, "The goal was reached in 28.550 s, with 1 collisions with shelves and 0 with obstacles."),
+    ({}, 0, "The goal was reached in 28.550 s, with 1 collision with shelves and 0 with obstacles."),
     ({"shelf_collision_count": "unknown"}, 0, "The goal was reached in 28.550 s; contacts are unknown, as the robot has no bumper."),
     ({"result": "aborted", "reason": "stopped_by_signal", "bag": "missing"}, 1, "The goal was not reached: aborted, stopped by signal."),
 ])
@@ -377,6 +378,7 @@ def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_c
     assert "trial-2" in capsys.readouterr().out
     sentence = refusal(lambda: run.report(out, 4000 * 10**9, "LOG", "there is no map"), 1)
     assert "LOG" in sentence and "there is no map" in sentence
+    assert refusal(lambda: run.report(out, 4000 * 10**9, None, ""), 1) == "the session ended without a trial."
 
 
 def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):

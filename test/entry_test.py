@@ -64,6 +64,8 @@ def test_shell_scripts_are_clean():
     (["bench", "foo"], "allowed are parts of: build/build_bench nav/nav_bench"),
     (["test", "quick", "a", "b"], "unexpected argument"),
     (["test", "no_such_" + "word"], "no test's name contains \"no_such_word\""),
+    (["bench", "trials", "--world=/"], "\"/\" is a folder; allowed are: training"),
+    (["run", "foo:=bar"], "participant person places profile robot rviz"),
     (["bench", "trials", "--world=nope"], "no world and no file has the name \"nope\""),
     (["batch", "--worlds=nope", "--out=/nonexistent"], "no world and no file has the name \"nope\""),
     *((["batch", "--out=/nonexistent", f"--{option}={value}"], f"--{option} is \"{value}\"; allowed are whole numbers from {least} to")

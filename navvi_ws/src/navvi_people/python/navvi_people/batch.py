@@ -317,7 +317,7 @@ def run_batch(program, figures, args):
         rows.close()
     missing = finish(folder, trials, figures)
     if missing:
-        aside(f"{missing} trials are missing, of this shard {failed} that failed; the table is written when all are there.")
+        aside(f"trials that are missing: {missing}, of this shard {failed} that failed; the table is written when all are there.")
         return 1
-    aside(f"{len(trials)} trials are in {folder / 'trials.csv'}.")
+    aside(f"{folder / 'trials.csv'} holds {len(trials)} trial{'s' * (len(trials) != 1)}.")
     return 0

@@ -235,7 +235,8 @@ def verify(args):
     study = opened(args)
     sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
     lines, counts, lost = verify.notes_and_answers(study, study.progress())
-    print("\n".join([*sentences, *lines, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
+    print("\n".join([*sentences, *lines, f"{overview.counted(len(sentences), 'trial')}, {bad} differ.",
+                     f"{overview.counted(counts['notes'], 'note')} and {overview.counted(counts['answers'], 'answer')}, {lost} lost."]))
     return 1 if bad or lost else 0
 
 
