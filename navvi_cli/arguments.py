@@ -16,7 +16,8 @@ CHOICES = {
 NUMBER = r"[0-9]+(\.[0-9]+)?", "numbers, 0 or more"
 COORDINATE = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"
 FORMS = {
-    "limit": NUMBER, "rate": (r"(?=.*[1-9])" + NUMBER[0], "numbers above 0"), "skip": NUMBER, "pace": NUMBER, "port": (r"[0-9]{1,5}", "numbers of ports"),
+    "limit": NUMBER, "rate": (r"(?=.*[1-9])" + NUMBER[0], "numbers above 0"), "skip": NUMBER, "pace": NUMBER,
+    "port": (r"[0-9]{1,5}", "numbers of ports"),
     "robot": (r"[A-Za-z0-9.-]{1,253}(:[0-9]{1,5})?", "hosts, such as 10.8.0.2 or 10.8.0.2:11312"),
     "address": (r"([0-9]{1,3}\.){3}[0-9]{1,3}", "addresses of this machine, such as 10.8.0.2"),
     "seed": (r"[0-9]{1,10}", "whole numbers from 0 to 2147483647"),

@@ -182,7 +182,8 @@ def test_a_wrong_word_is_refused(launch_file, word, sentence):
 @pytest.mark.parametrize("word, good", [
     ("start:=-6.5,-5,1.57", True), ("start:=1,2", False), ("start:=", True), ("goal:=0.2,-1", True), ("goal:=1e1,.5", True), ("goal:=1", False),
     ("limit:=30", True), ("limit:=-1", False), ("participant:=sub-01", True), ("participant:=Ann Smith", False), ("person:=anna", True),
-    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False), ("seed:=99999999999", False), ("rate:=0", False), ("rate:=0.5", True), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
+    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False),
+    ("seed:=99999999999", False), ("rate:=0", False), ("rate:=0.5", True), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
 ])
 def test_the_form_of_a_value_is_checked(word, good):
     launch = "replay.launch" if word.startswith("rate") else "live.launch"
@@ -355,7 +356,8 @@ def test_a_damaged_summary_is_named(damage, trial):
 
 
 @pytest.mark.parametrize("last, reason, repeated, counted, code", [
-    ("TRIAL_END", "goal_reached", 0, 0, 0), ("TRIAL_END", "goal_reached", 0, 1, 1), ("TRIAL_END", "goal_reached", 1, 0, 1), ("PROGRESS", "no_end", 0, 0, 0),
+    ("TRIAL_END", "goal_reached", 0, 0, 0), ("TRIAL_END", "goal_reached", 0, 1, 1), ("TRIAL_END", "goal_reached", 1, 0, 1),
+    ("PROGRESS", "no_end", 0, 0, 0),
     ("PROGRESS", "goal_reached", 0, 2, "has no end")])
 def test_check_and_show_hold_the_journal_against_the_summary(last, reason, repeated, counted, code, trial, monkeypatch):
     args = types.SimpleNamespace(trial=journal_of(trial(reason=reason), (100.0, "TRIAL_START"), (110.0, last)), csv=False)

@@ -5,7 +5,8 @@ from .session import why_nothing
 
 def schedule(plan):
     """The whole study, before anything starts."""
-    lines = [f"{plan.title}: study {plan.study}, {counted(len(plan.participants), 'participant')} in {counted(len(plan.groups), 'group')}, {counted(plan.sessions, 'session')} each.",
+    lines = [f"{plan.title}: study {plan.study}, {counted(len(plan.participants), 'participant')} in "
+             f"{counted(len(plan.groups), 'group')}, {counted(plan.sessions, 'session')} each.",
              f"Primary outcome: {question(plan.primary)}. Everything is kept in {plan.folder}.", ""]
     lines += [*conditions(plan), *broken_off(plan)]
     lines += [f"Worlds: {counted(len(plan.sets), 'set')} of {len(plan.sets[0])}, {len(plan.reserve)} in reserve; {plan.limit:g} s at most in each.", ""]
