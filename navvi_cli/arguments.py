@@ -16,10 +16,11 @@ CHOICES = {
 NUMBER = r"[0-9]+(\.[0-9]+)?", "numbers, 0 or more"
 COORDINATE = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"
 FORMS = {
-    "limit": NUMBER, "rate": NUMBER, "skip": NUMBER, "pace": NUMBER, "port": (r"[0-9]{1,5}", "numbers of ports"),
+    "limit": NUMBER, "rate": (r"(?=.*[1-9])" + NUMBER[0], "numbers above 0"), "skip": NUMBER, "pace": NUMBER,
+    "port": (r"[0-9]{1,5}", "numbers of ports"),
     "robot": (r"[A-Za-z0-9.-]{1,253}(:[0-9]{1,5})?", "hosts, such as 10.8.0.2 or 10.8.0.2:11312"),
     "address": (r"([0-9]{1,3}\.){3}[0-9]{1,3}", "addresses of this machine, such as 10.8.0.2"),
-    "seed": (r"[0-9]{1,18}", "whole numbers, 0 or more"),
+    "seed": (r"[0-9]{1,10}", "whole numbers from 0 to 2147483647"),
     "start": (rf"(|{COORDINATE},{COORDINATE},{COORDINATE})", "values of the form x,y,yaw in m and rad"),
     "goal": (rf"(|{COORDINATE},{COORDINATE})", "values of the form x,y in m"),
     "participant": (r"[A-Za-z0-9_-]{1,32}|n/a", "up to 32 letters, digits, - and _, such as sub-01"),
@@ -44,7 +45,8 @@ class LaunchFile:
         self.fixed = fixed_parameters(root)
 
     def names(self):
-        return [*self.arguments, *(["person"] if "feedback" in self.parts else [])]
+        return [*self.arguments, *(["person"] if "feedback" in self.parts else []),
+                *(["robot"] if self.path.name in ("live.launch", "person.launch") else [])]
 
     def help(self):
         return ["Each argument with its default:",
@@ -118,7 +120,7 @@ def words_for(launch, words, choices=()):
     if person:
         Words(person, ["person"])
     words = [f"feedback/{word}" if word in person else word for word in words]
-    return Words(words, launch.arguments, launch.parts, launch.fixed, choices)
+    return Words(words, launch.names(), launch.parts, launch.fixed, choices)
 
 
 def parameter(word):
@@ -128,9 +130,24 @@ def parameter(word):
     return word
 
 
+def number(name, least, most, kind=int):
+    """The argument type of a number in a range, in the words of a sentence that refuses another."""
+    def read(word):
+        try:
+            value = kind(word)
+        except ValueError:
+            value = None
+        if value is None or not least <= value <= most:
+            fail(f"{name} is \"{word}\"; allowed are {'whole numbers' if kind is int else 'numbers'} from {least} to {most}.", 2)
+        return value
+    return read
+
+
 def trial_in(word, holds="trial.bag"):
-    """The path of a trial's folder."""
+    """The path of a trial's folder, also by the folder that holds it alone, as records of a batch are."""
     path = Path(os.path.abspath(word))
+    inside = [*path.glob(f"trial-*/{holds}")]
+    path = inside[0].parent if len(inside) == 1 else path
     if not (path / holds).is_file():
         fail(f"{word} holds no {holds}; the folder of a trial is allowed, such as trials/trial-20260101T120000Z.", 2)
     return path

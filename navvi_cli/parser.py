@@ -31,7 +31,8 @@ class Parser(argparse.ArgumentParser):
     def format_help(self):
         lines = [line for action in self.shown() for line in help_of(action)] + (self.more_help() if self.more_help else [])
         arguments = "\n".join(textwrap.fill(line, WIDTH, break_on_hyphens=False, break_long_words=False) for line in lines)
-        head = textwrap.fill(self.format_usage(), WIDTH, break_on_hyphens=False) + "\n" + self.summary
+        usage = textwrap.fill(self.format_usage().replace("|", "| "), WIDTH, break_on_hyphens=False).replace("| ", "|")
+        head = usage + "\n" + self.summary
         parts = [head, self.body.strip(), arguments, self.end.strip()]
         return "\n\n".join(part for part in parts if part).replace("./navvi", NAVVI) + "\n"
 
@@ -57,7 +58,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def usage_of(action):
-    name = action.metavar or action.dest
+    name = action.metavar or "|".join(action.choices or []) or action.dest
     if isinstance(action, argparse._SubParsersAction):
         return "|".join(action.choices) + " ..."
     if action.option_strings:

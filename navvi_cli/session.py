@@ -20,7 +20,8 @@ SHOWN = [(re.compile(pattern), text) for pattern, text in [
     (r"^\[ *WARN\] \[[^]]*\]: (.*)", r"warning: \1"),
     (r"^\[ *INFO\] \[[^]]*\]: ((?:Trial [^ ]* has begun|Trial ended).*)", r"\1"),
     (r"^\[ *INFO\] \[[^]]*\]: Found: (.*)", r"found and saved: \1"),
-    (r".*REQUIRED process \[([a-z_]*)[^]]*\] has died!.*", r"\1 has ended, and the session with it."),
+    (r".*REQUIRED process \[trial_node.*has died!.*", "the session has ended."),
+    (r".*REQUIRED process \[(?!trial_node)([a-z_]*)[^]]*\] has died!.*", r"\1 has ended, and the session with it."),
     (r"^\[([a-z_]*)-[0-9]*\] process has died \[.*exit code ([-0-9]*).*", r"warning: \1 has ended with exit code \2 and is started anew."),
     (r"^RLException: (.*)", r"error: \1"),
 ]]

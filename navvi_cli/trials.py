@@ -1,5 +1,6 @@
 """What a trial left in its folder."""
 import csv
+import re
 from pathlib import Path
 
 from .places import NAVVI  # first, as it says where the next one is
@@ -13,10 +14,23 @@ BRIEF = ["path_length_m", "safe_stop_count", "cues_spoken"]
 def summary(folder):
     path = Path(folder) / "summary.csv"
     try:
-        with open(path, newline="", errors="replace") as file:
-            return next(csv.DictReader(file))
-    except (OSError, StopIteration, csv.Error) as problem:
-        fail(f"{path} cannot be read: {problem or 'it is empty'}; the folder of a trial that has ended is allowed.", 2)
+        text = path.read_bytes().decode(errors="replace")
+        names, cells = csv.reader(text[:-1].split("\n"), strict=True)
+        row = dict(zip(names, cells, strict=True))
+        if not text.endswith("\n") or not re.fullmatch("[ -~]+", sentence(row)):
+            raise ValueError
+        return row
+    except OSError as problem:
+        fail(f"{path} cannot be read: {problem.strerror}; the folder of a trial that has ended is allowed.", 2)
+    except (ValueError, KeyError, csv.Error):
+        fail(f"{path} is damaged; allowed is a line of titles and a line of as many cells, as a trial writes them. Restore it from a copy.", 2)
+
+
+def require_end(folder, row):
+    """Refuses a journal that ends before its trial, as the summary tells it."""
+    path = Path(folder) / "journal.csv"
+    if path.is_file() and row["reason"] != "no_end" and not Record(path.parent).first("TRIAL_END"):
+        fail(f"{path} has no end (TRIAL_END), and summary.csv says that the trial ended: {row['result']}. Restore the journal from a copy.")
 
 
 def written_since(begin, out):
@@ -48,7 +62,8 @@ def sentence(row):
         return f"The goal was not reached: {row['result']}, {row['reason'].replace('_', ' ')}."
     if row["shelf_collision_count"] == "unknown":
         return f"The goal was reached in {row['elapsed_s']} s; contacts are unknown, as the robot has no bumper."
-    return (f"The goal was reached in {row['elapsed_s']} s, with {row['shelf_collision_count']} collisions with shelves "
+    shelves = row["shelf_collision_count"]
+    return (f"The goal was reached in {row['elapsed_s']} s, with {shelves} collision{'s' * (shelves != '1')} with shelves "
             f"and {row['obstacle_collision_count']} with obstacles.")
 
 

@@ -36,7 +36,8 @@ def check_name(world):
     presets = (share("navvi_sim") / "config" / "presets.yaml").read_text()
     known = re.findall(r"^- name: (\w+)", presets, re.M)
     if world not in known and not Path(world).is_file():
-        fail(f"no world and no file has the name \"{world}\"; allowed are: {' '.join(known)}, or a .yaml, .sdf or .world file.", 2)
+        wrong = f"\"{world}\" is a folder" if Path(world).is_dir() else f"no world and no file has the name \"{world}\""
+        fail(f"{wrong}; allowed are: {' '.join(known)}, or a .yaml, .sdf or .world file.", 2)
 
 
 def picture(word):

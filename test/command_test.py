@@ -1,16 +1,19 @@
 """The parts of the command by themselves: arguments, launch files, the lock of a port, what a session prints, and its end."""
+import contextlib
 import csv
 import os
+import re
 import socket
 import subprocess
 import sys
+import types
 
 import pytest
 
 from conftest import free_port
 from sessions import ROOT
 from navvi_cli import arguments, network, parser, session, trials, worlds
-from navvi_cli.commands import replay, run
+from navvi_cli.commands import check, replay, run, show
 from navvi_cli.main import command_names, parser_of
 from navvi_cli.say import Failure
 
@@ -89,8 +92,17 @@ def test_a_missing_option_is_named_with_its_values_and_without_brackets():
         "missing: --data; allowed is: ./navvi study withdraw PLAN PARTICIPANT --data delete|keep")
 
 
+def test_usage_names_the_values_of_an_option_and_breaks_between_words():
+    from navvi_cli.commands import batch, study
+    helps = {}
+    for command in batch, study:
+        found = parser.Parser(prog="./navvi", text=command.__doc__)
+        command.arguments(found)
+        helps[command] = found.format_help()
+    assert "--records all|failed|none: " in helps[batch] and re.search(r"^\./navvi [a-z|]+\|\n[a-z|]+ \.\.\.$", helps[study], re.M)
+
+
 def test_a_full_disk_is_a_sentence_with_exit_code_2(capsys, monkeypatch):
-    import types
     from navvi_cli import main
 
     def full(words):
@@ -158,7 +170,7 @@ def test_words_become_values_and_parameters(launch_file):
 
 @pytest.mark.parametrize("word, sentence", [
     ("fast", "arguments look like name:=value"), ("gone:=1", "\"gone\" is unknown; known are: seed view"), ("inner:=1", "is unknown"),
-    ("version:=1", "is unknown"), ("sim_parameters:={}", "is unknown"), ("seed:=$(env HOME)", "holds \"$(\""), ("seed:=-1", "whole numbers, 0 or more"),
+    ("version:=1", "is unknown"), ("sim_parameters:={}", "is unknown"), ("seed:=$(env HOME)", "holds \"$(\""), ("seed:=-1", "whole numbers from 0 to 2147483647"),
     ("view:=wide", "allowed are: chase top forward"), ("nav/x:=1", "those of sim can be given"), ("sim/seed:=1", "allowed is seed:=1"),
     ("sim/mode:=1", "the session itself sets it"), ("seed:=1 seed:=2", "given twice"), ("person:=a person:=b", "given twice"),
     ("see[d]:=1", "\"see[d]\" is unknown"),
@@ -170,10 +182,12 @@ def test_a_wrong_word_is_refused(launch_file, word, sentence):
 @pytest.mark.parametrize("word, good", [
     ("start:=-6.5,-5,1.57", True), ("start:=1,2", False), ("start:=", True), ("goal:=0.2,-1", True), ("goal:=1e1,.5", True), ("goal:=1", False),
     ("limit:=30", True), ("limit:=-1", False), ("participant:=sub-01", True), ("participant:=Ann Smith", False), ("person:=anna", True),
-    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
+    ("person:=", False), ("person:=../x", False), ("seed:=1.5", False),
+    ("seed:=99999999999", False), ("rate:=0", False), ("rate:=0.5", True), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
 ])
 def test_the_form_of_a_value_is_checked(word, good):
-    check = lambda: arguments.words_for(arguments.LaunchFile("live.launch"), [word])  # noqa: E731
+    launch = "replay.launch" if word.startswith("rate") else "live.launch"
+    check = lambda: arguments.words_for(arguments.LaunchFile(launch), [word])  # noqa: E731
     assert check() is not None if good else "allowed are" in refusal(check)
 
 
@@ -237,7 +251,8 @@ def test_a_port_on_which_anybody_listens_is_not_ours(locks):
     ("\x1b[33m[ WARN] [1.0]: slow\x1b[0m", "navvi: warning: slow"),
     ("[ERROR] [1.0, 2.0]: bad", "navvi: error: bad"),
     ("\x1b]2;title\x07[ INFO] [1.0]: noise", ""),
-    ("REQUIRED process [trial_node-5] has died!", "navvi: trial_node has ended, and the session with it."),
+    ("REQUIRED process [trial_node-5] has died!", "navvi: the session has ended."),
+    ("REQUIRED process [sim_node-5] has died!", "navvi: sim_node has ended, and the session with it."),
     ("[nav_node-2] process has died [pid 7, exit code -11, cmd x].", "navvi: warning: nav_node has ended with exit code -11 and is started anew."),
     ("RLException: no such file", "navvi: error: no such file"),
 ])
@@ -299,6 +314,14 @@ ROW = {"trial": "trial-1", "world": "busy", "seed": "3", "result": "reached", "r
        **{f"figure_{number}": "1" for number in range(40)}}
 
 
+def test_a_record_of_a_batch_is_found_by_its_number(tmp_path):
+    for name in "trial-busy-1", "trial-busy-2":
+        with pytest.raises(Failure) if name.endswith("2") else contextlib.nullcontext():
+            (tmp_path / name).mkdir()
+            (tmp_path / name / "trial.bag").write_text("")
+            assert arguments.trial_in(str(tmp_path)) == tmp_path / name
+
+
 @pytest.fixture
 def trial(tmp_path):
     def write(**more):
@@ -311,7 +334,7 @@ def trial(tmp_path):
 
 
 @pytest.mark.parametrize("more, code, last", [
-    ({}, 0, "The goal was reached in 28.550 s, with 1 collisions with shelves and 0 with obstacles."),
+    ({}, 0, "The goal was reached in 28.550 s, with 1 collision with shelves and 0 with obstacles."),
     ({"shelf_collision_count": "unknown"}, 0, "The goal was reached in 28.550 s; contacts are unknown, as the robot has no bumper."),
     ({"result": "aborted", "reason": "stopped_by_signal", "bag": "missing"}, 1, "The goal was not reached: aborted, stopped by signal."),
 ])
@@ -321,6 +344,29 @@ def test_a_session_ends_in_at_most_eight_lines_with_its_result_last(trial, more,
     assert len(lines) <= 6 and lines[-1] == last
     assert any("show" in line and str(trial()) in line for line in lines)
     assert ("bag: missing" in lines) == ("bag" in more)
+
+
+@pytest.mark.parametrize("damage", [
+    lambda data: data[:2 * len(data) // 3], lambda data: data[:-1], lambda data: b"", lambda data: data.replace(b"reached", b"\xff\xfe"),
+    lambda data: data.replace(b"result", b"reslut"), lambda data: data + data], ids=["cut", "no_end", "empty", "bytes", "title", "twice"])
+def test_a_damaged_summary_is_named(damage, trial):
+    path = trial() / "summary.csv"
+    path.write_bytes(damage(path.read_bytes()))
+    assert f"{path} is damaged" in refusal(lambda: trials.summary(path.parent))
+
+
+@pytest.mark.parametrize("last, reason, repeated, counted, code", [
+    ("TRIAL_END", "goal_reached", 0, 0, 0), ("TRIAL_END", "goal_reached", 0, 1, 1), ("TRIAL_END", "goal_reached", 1, 0, 1),
+    ("PROGRESS", "no_end", 0, 0, 0),
+    ("PROGRESS", "goal_reached", 0, 2, "has no end")])
+def test_check_and_show_hold_the_journal_against_the_summary(last, reason, repeated, counted, code, trial, monkeypatch):
+    args = types.SimpleNamespace(trial=journal_of(trial(reason=reason), (100.0, "TRIAL_START"), (110.0, last)), csv=False)
+    monkeypatch.setattr(check, "tool", lambda package, name: name)
+    monkeypatch.setattr(check, "show", lambda name, *words: {"check_trial": repeated, "count_trial": counted}[name])
+    if code == "has no end":
+        assert code in refusal(lambda: check.run(args), 1) and code in refusal(lambda: show.run(args), 1)
+    else:
+        assert check.run(args) == code and not show.run(args)
 
 
 def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_closed_after_it(trial, monkeypatch, capsys):
@@ -334,6 +380,7 @@ def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_c
     assert "trial-2" in capsys.readouterr().out
     sentence = refusal(lambda: run.report(out, 4000 * 10**9, "LOG", "there is no map"), 1)
     assert "LOG" in sentence and "there is no map" in sentence
+    assert refusal(lambda: run.report(out, 4000 * 10**9, None, ""), 1) == "the session ended without a trial."
 
 
 def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):
@@ -355,6 +402,7 @@ def test_a_replay_begins_some_seconds_before_the_event_that_is_named(tmp_path):
     assert replay.moment(trial, "cue:1") == 0.0 and replay.moment(trial, "73.5") == 73.5
     for wrong, sentence in {"collision:3": "has 2 of these", "colision": "collision, cue, trial_start", "collision:0": "allowed are", "-3": "allowed are"}.items():
         assert sentence in refusal(lambda: replay.moment(trial, wrong))
+    assert "lacks it" in refusal(lambda: replay.moment(journal_of(tmp_path / "cut", (110.0, "COLLISION")), "3"))
 
 
 def test_a_replay_is_paused_and_stepped_by_keys(capsys):

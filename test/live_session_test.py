@@ -85,7 +85,7 @@ def trial(session):
 def test_the_goal_is_reached_and_the_exit_code_says_so(session, trial):
     assert session.process.returncode == 0, session.text()[-3000:]
     assert summary(trial.parent)["result"] == "reached"
-    assert "trial_node has ended, and the session with it." in session.text()
+    assert "navvi: the session has ended." in session.text()
     assert not re.search("died|cleanly|={20}", session.text())
     assert summary(trial.parent)["participant"] == "sub-01"
     assert summary(trial.parent)["parameters"] == "feedback/drive/expo=0.2 nav/replan/hold_time=5 feedback/speaker/pitch=55"

@@ -310,6 +310,8 @@ def test_a_record_whose_bytes_are_not_utf_8_is_read(work):
             file.write(more)
     assert [row["trial_type"] for row in table.events(work.study, work.study.progress())] == ["goal reached", "caf\ufffd\u2028"]
     assert len(record.Record(trial).rows) == 3
+    (trial / "summary.csv").write_text("trial,result,elapsed_s\ntrial-1,rea")
+    assert "None" not in table.trials(work.study, work.study.progress())[0].values()
 
 
 def test_marks_stand_among_the_events_of_their_trial_at_its_own_time(work):

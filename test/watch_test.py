@@ -38,6 +38,7 @@ def contact(seconds, seq, x, y):
 
 
 SESSION = [
+    ("/navvi/cues", said(98, "welcome")),
     ("/navvi/trial_state", at(99.6, TrialState(state=TrialState.READY))),
     ("/navvi/events", at(100, TrialEvent(type="TRIAL_START", fields="world=busy;seed=3;operator=pad"))),
     ("/navvi/guidance", guidance(100.2, Guidance.FOLLOWING)),
@@ -51,10 +52,12 @@ SESSION = [
     ("/navvi/guidance", guidance(120, Guidance.FOLLOWING, 12.0)),
     ("/navvi/guidance", guidance(121, Guidance.BLOCKED, 12.0, blocked_by="forklift")),
     ("/navvi/guidance", guidance(125, Guidance.FOLLOWING, 9.0, ends_short=True)),
+    ("/navvi/trial_state", at(129.9, TrialState(state=TrialState.PREPARING))),
     ("/navvi/events", at(130, TrialEvent(type="TRIAL_END", fields="result=aborted;reason=stopped_by_signal"))),
+    ("/navvi/trial_state", at(130.1, TrialState(state=TrialState.PREPARING))),
+    ("/navvi/guidance", guidance(131, Guidance.FOLLOWING, 40.0)),
 ]
 LINES = [
-    "The trial waits until its person presses start. 0 s.",
     "The trial begins: world busy, seed 3, operator pad. 0 s.",
     "Follow the path, 20 m to go. 0 s.",
     "Said: drive straight, 5 meters. 1 s.",

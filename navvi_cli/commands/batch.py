@@ -21,6 +21,7 @@ Examples
 """
 
 from navvi_cli import places
+from navvi_cli.arguments import number
 from navvi_cli.say import fail
 from navvi_cli.worlds import check_name
 
@@ -30,13 +31,15 @@ def arguments(parser):
     parser.add_argument("--seeds", default="1-10", metavar="1-10", help="of the worlds.")
     parser.add_argument("--people", default="typical", metavar="TYPE[:SEEDS],...", help="who drives. Default: typical.")
     parser.add_argument("--conditions", default="default", metavar="NAME,...", help="what is played. Default: default.")
-    parser.add_argument("--limit", type=int, default=600, metavar="S", help="s of a trial. Default: 600.")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="trials at a time. Default: 1.")
-    parser.add_argument("--cache", type=int, default=512, metavar="MB", help="of worlds that are kept for other trials. Default: 512.")
+    parser.add_argument("--limit", type=number("--limit", 1, 10**9), default=600, metavar="S", help="s of a trial. Default: 600.")
+    parser.add_argument("--jobs", type=number("--jobs", 1, 256), default=1, metavar="N", help="trials at a time. Default: 1.")
+    parser.add_argument("--cache", type=number("--cache", 0, 10**6), default=512, metavar="MB",
+                        help="of worlds that are kept for other trials. Default: 512.")
     parser.add_argument("--records", default="failed", choices=("all", "failed", "none"),
                         help="journal, track and bag of which trials are kept in DIR/records; failed: those that do not reach the goal, the default.")
     parser.add_argument("--shard", default="1/1", metavar="K/N", help="the part of the trials to run.")
-    parser.add_argument("--tell", type=float, default=10.0, metavar="S", help="s between two lines of progress. Default: 10.")
+    parser.add_argument("--tell", type=number("--tell", 0, 86400, float), default=10.0, metavar="S",
+                        help="s between two lines of progress. Default: 10.")
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of the tables.")
 
 

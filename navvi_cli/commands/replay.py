@@ -70,14 +70,16 @@ def run(args):
 
 def moment(trial, at):
     """s since the trial began, of the event that `at` names, or the time it is."""
+    onsets = times(trial)
+    if "TRIAL_START" not in onsets:
+        fail(f"--at needs the beginning of the trial (TRIAL_START), and {trial / 'journal.csv'} lacks it; allowed is skip:= in its place.", 2)
     if re.fullmatch(r"[0-9]+(\.[0-9]+)?", at):
         return float(at)
     name, _, number = at.partition(":")
-    onsets = times(trial)
     kind = name.upper().replace("-", "_")
     if kind not in onsets or not re.fullmatch(r"([1-9][0-9]*)?", number):
         known = ", ".join(sorted(name.lower() for name in onsets))
-        fail(f"--at is \"{at}\"; allowed are a time in s, and a type of this trial's journal, with its number, such as collision:2: {known or 'none'}.", 2)
+        fail(f"--at is \"{at}\"; allowed are a time in s, and a type of this trial's journal, with its number, such as collision:2: {known}.", 2)
     found = onsets[kind]
     if int(number or 1) > len(found):
         fail(f"--at is \"{at}\", and this trial has {len(found)} of these; allowed is {name}:1 to {name}:{len(found)}.", 2)

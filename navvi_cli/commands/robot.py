@@ -30,7 +30,8 @@ from navvi_cli.network import Network
 from navvi_cli.parser import add_actions
 from navvi_cli.places import program
 from navvi_cli.say import say, tell
-from navvi_cli.session import Launch, check_parameters, prepare
+from navvi_cli.session import Launch, accepted, check_parameters, nodes_of, prepare
+from navvi_cli.workspace import build, is_current
 from navvi_cli.worlds import check_name
 
 SECONDS = 10.0
@@ -79,6 +80,10 @@ class Check:
     def run(args):
         launch = LaunchFile("robot.launch")
         given = words_for(launch, args.words)
+        if not is_current(*nodes_of(given).values()):
+            build(*(f"{part}_node" for part in nodes_of(given)))
+        for part, node in nodes_of(given).items():
+            accepted(part, node, given.parameters_of(part))
         words = {name: default for name, (default, _) in launch.arguments.items()} | given
         words |= dict(word.split(":=", 1) for word in given.parameters)
         checked = robot.Robot(words, given)

@@ -69,7 +69,7 @@ def drive(launch_file, words, network, where):
     announce(words, log, network, where)
     launch = Launch(launch_file, words, log, network)
     whole = launch.run() or launch.interrupted
-    return report(words["out"], begin, log, launch.log.fatal) or int(not whole)
+    return report(words["out"], begin, None if launch.interrupted else log, launch.log.fatal) or int(not whole)
 
 
 def far_session(given):
@@ -168,9 +168,9 @@ def announce(words, log, network, where):
 
 
 def report(out, begin, log, fatal):
-    """The end of a session, by the summary of its last trial."""
+    """The end of a session, by the summary of its last trial. \\param log  that says why there is none, or None"""
     workspace.show(program("navvi_study", "close_trials"), out)
     folders = trials.written_since(begin, out)
     if not folders:
-        fail(f"the session ended without a trial; the log {log} says why. {fatal}".strip())
+        fail(f"the session ended without a trial{f'; the log {log} says why' if log else ''}. {fatal}".strip())
     return trials.report(folders[-1])

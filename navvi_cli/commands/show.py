@@ -1,7 +1,7 @@
 """Print the summary of a trial: each figure on a line, its result last.
 
 Exit codes
-0: printed. 2: there is no summary.
+0: printed. 1: printed, and the journal is cut off. 2: no summary in order.
 
 Example
 ./navvi show trials/trial-20260101T120000Z
@@ -21,3 +21,4 @@ def run(args):
         print((args.trial / "summary.csv").read_text(errors="replace"), end="")
     else:
         print("\n".join([*trials.lines(row, row), f"The record is in {args.trial}", trials.sentence(row)]))
+    trials.require_end(args.trial, row)

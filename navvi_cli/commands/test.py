@@ -19,6 +19,7 @@ The last line is "N passed, N failed".
 Exit codes
 0: all passed. 1: one failed, or none ran. 2: a wrong argument.
 """
+from navvi_cli.arguments import number
 from navvi_cli.say import fail
 from navvi_cli.workspace import shell
 
@@ -40,6 +41,8 @@ def run(args):
     tier = words.pop(0) if words and words[0] in [*TIERS, *SHELL] and not args.asan else None
     if len(words) > 1 or (args.slowest and args.words):
         fail(f"unexpected argument \"{words[-1] if words else tier}\"; allowed are a tier and one part of a test's name.", 2)
+    if tier == "hours" and words:
+        number("the time in hours", 0, 10**6, float)(words[0])
     if args.slowest:
         shell("slowest")
     elif args.asan:

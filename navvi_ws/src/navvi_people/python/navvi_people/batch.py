@@ -61,9 +61,9 @@ class Trial(NamedTuple):
 
 
 def span(text, option):
-    found = re.fullmatch(r"(\d+)(?:-(\d+))?", text)
-    if not found or int(found[2] or found[1]) < int(found[1]):
-        raise BatchError(f"{option} has \"{text}\"; allowed are a number, or two such as 1-20.")
+    found = re.fullmatch(r"(\d{1,10})(?:-(\d{1,10}))?", text)
+    if not found or not 0 <= int(found[2] or found[1]) - int(found[1]) < MOST_TRIALS:
+        raise BatchError(f"{option} has \"{text}\"; allowed are a number, or two such as 1-20, and {MOST_TRIALS} seeds at most.")
     return range(int(found[1]), int(found[2] or found[1]) + 1)
 
 
@@ -92,10 +92,12 @@ def trials_of(args):
         raise BatchError("--worlds, --people or --conditions has a line break; allowed are names without one.")
     people = [each for text in args.people.split(",") for each in person_of(text)]
     conditions = [condition_of(text) for text in args.conditions.split(",")]
-    cells = [(world, seed, person, seed if person_seed is None else person_seed, *condition) for world in args.worlds.split(",")
-             for seed in span(args.seeds, "--seeds") for person, person_seed in people for condition in conditions]
-    if len(cells) > MOST_TRIALS:
-        raise BatchError(f"these make {len(cells)} trials; allowed are {MOST_TRIALS}.")
+    worlds, seeds = args.worlds.split(","), span(args.seeds, "--seeds")
+    count = len(worlds) * len(seeds) * len(people) * len(conditions)
+    if count > MOST_TRIALS:
+        raise BatchError(f"these make {count} trials; allowed are {MOST_TRIALS}.")
+    cells = [(world, seed, person, seed if person_seed is None else person_seed, *condition) for world in worlds
+             for seed in seeds for person, person_seed in people for condition in conditions]
     return [Trial(number, *cell) for number, cell in enumerate(cells)]
 
 
@@ -315,7 +317,7 @@ def run_batch(program, figures, args):
         rows.close()
     missing = finish(folder, trials, figures)
     if missing:
-        aside(f"{missing} trials are missing, of this shard {failed} that failed; the table is written when all are there.")
+        aside(f"trials that are missing: {missing}, of this shard {failed} that failed; the table is written when all are there.")
         return 1
-    aside(f"{len(trials)} trials are in {folder / 'trials.csv'}.")
+    aside(f"{folder / 'trials.csv'} holds {len(trials)} trial{'s' * (len(trials) != 1)}.")
     return 0

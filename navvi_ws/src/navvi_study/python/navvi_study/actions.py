@@ -240,12 +240,13 @@ def verify(args):
     Exit codes
     0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
     """
-    from . import verify
+    from . import overview, verify
     study = _opened(args)
     sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
     lines, counts, lost = verify.notes_and_answers(study, study.progress())
     unrecorded = study.unrecorded()
-    print("\n".join([*sentences, *lines, *unrecorded, f"{len(sentences)} trials, {bad} differ.", f"{counts['notes']} notes and {counts['answers']} answers, {lost} lost."]))
+    print("\n".join([*sentences, *lines, *unrecorded, f"{overview.counted(len(sentences), 'trial')}, {bad} differ.",
+                     f"{overview.counted(counts['notes'], 'note')} and {overview.counted(counts['answers'], 'answer')}, {lost} lost."]))
     return 1 if bad or lost or unrecorded else 0
 
 

@@ -5,10 +5,11 @@ from .session import why_nothing
 
 def schedule(plan):
     """The whole study, before anything starts."""
-    lines = [f"{plan.title}: study {plan.study}, {len(plan.participants)} participants in {len(plan.groups)} groups, {_count(plan.sessions, 'session')} each.",
+    lines = [f"{plan.title}: study {plan.study}, {counted(len(plan.participants), 'participant')} in "
+             f"{counted(len(plan.groups), 'group')}, {counted(plan.sessions, 'session')} each.",
              f"Primary outcome: {question(plan.primary)}. Everything is kept in {plan.folder}.", ""]
     lines += [*conditions(plan), *broken_off(plan)]
-    lines += [f"Worlds: {len(plan.sets)} sets of {len(plan.sets[0])}, {len(plan.reserve)} in reserve; {plan.limit:g} s at most in each.", ""]
+    lines += [f"Worlds: {counted(len(plan.sets), 'set')} of {len(plan.sets[0])}, {len(plan.reserve)} in reserve; {plan.limit:g} s at most in each.", ""]
     for group in plan.groups:
         lines.append(f"Group {group.name}:")
         if plan.order == "drawn":
@@ -50,7 +51,7 @@ def balance(plan):
     for group in plan.groups:
         orders = len(orders_of(plan, group))
         left = len(group.participants) % orders
-        lines.append(f"Group {group.name}: {_count(orders, 'order')}, {words}." if not left else
+        lines.append(f"Group {group.name}: {counted(orders, 'order')}, {words}." if not left else
                      f"Group {group.name}: {orders} orders and {len(group.participants)} participants; balanced would be {len(group.participants) + orders - left}.")
     return lines
 
@@ -83,10 +84,10 @@ def status(study, progress):
             lines.append(f"  without a trial that counts: {', '.join(step.name for step in missing)}.")
     complete = sum(progress.complete(person) for person in progress.people.values())
     begun = sum(person.begun for person in progress.people.values())
-    frozen = f"frozen {_count(len(progress.freezes), 'time')}" if progress.freezes else "not frozen"
+    frozen = f"frozen {counted(len(progress.freezes), 'time')}" if progress.freezes else "not frozen"
     lines.append(f"{plan.study}: {begun} of {len(plan.participants)} have begun, {complete} have completed; the plan is {frozen}.")
     return lines
 
 
-def _count(number, noun):
+def counted(number, noun):
     return f"{number} {noun}{'' if number == 1 else 's'}"

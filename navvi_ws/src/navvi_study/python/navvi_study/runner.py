@@ -166,7 +166,7 @@ class Desk:
         try:
             if self.note:
                 self.note({"utc": utc_now(), "mono_ns": time.monotonic_ns(), "type": kinds[key], "text": words})
-                print(f"navvi: {kinds[key]} written.", flush=True)
+                print(f"navvi: the {kinds[key]} is written{', and the trial stops' if key == 'a' else ''}.", flush=True)
         except Exception as problem:  # whatever it is, the session keeps its desk
             print(f"navvi: the {kinds[key]} is NOT written: {problem}", flush=True)
         self.paused = self.paused or key == "p"

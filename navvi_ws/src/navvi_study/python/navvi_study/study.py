@@ -257,7 +257,8 @@ def _read_frozen(path):
 
 
 def read_summary(folder):
-    return next(iter(rows_of(folder / "summary.csv")), {})
+    """Empty where none was written, or where it was cut off."""
+    return next((row for row in rows_of(folder / "summary.csv") if None not in (*row, *row.values())), {})
 
 
 def write_safely(path, content):

@@ -4,6 +4,7 @@ usage: watch.py WORDS_PER_MINUTE SPEECH [TRIAL_FOLDER]
 WORDS_PER_MINUTE: no line comes before the last one can have been read at this pace; 0 for no pause. SPEECH: true or false;
 by speech-dispatcher, then no line comes before the last one was spoken. Exit code 0; 2 if there is nothing to watch.
 """
+import itertools
 import math
 import os
 import pathlib
@@ -84,7 +85,7 @@ class Teller:
                 continue
             self.told[kind] = text
             self.last = stamp
-            yield Line(kind, rank, f"{text}. {stamp - self.start:.0f} s.")
+            yield Line(kind, rank, f"{text}. {max(0.0, stamp - self.start):.0f} s.")
 
     def guidance(self, message, stamp):
         """What the guide wants changes, or the goal came nearer while nothing else was to tell."""
@@ -209,12 +210,12 @@ class DamagedBag(Exception):
 
 
 def messages_of(bag):
-    """Its messages. Damaged bytes end in errors of many kinds, each of which means that."""
+    """Its messages but those on what is before a trial. Damaged bytes end in errors of many kinds, each of which means that."""
     import rosbag
     began = False
     try:
         with rosbag.Bag(str(bag)) as file:
-            for _, message, _ in file.read_messages(list(TOPICS)):
+            for _, message, _ in file.read_messages([topic for topic in TOPICS if topic != "/navvi/trial_state"]):
                 began = True
                 yield message
     except GeneratorExit:
@@ -225,11 +226,15 @@ def messages_of(bag):
 
 def watch_recorded(folder, pacer, screen):
     teller = Teller()
-    for message in messages_of(folder / "trial.bag"):
+    for message in itertools.dropwhile(lambda message: getattr(message, "type", "") != "TRIAL_START", messages_of(folder / "trial.bag")):
         for line in teller.lines(message):
             pacer.offer(line)
             while pacer.waiting:
                 show_next(pacer, screen)
+        if getattr(message, "type", "") == "TRIAL_END":
+            break
+    if teller.start is None:
+        screen.show("No trial began in this record.")
 
 
 def show_next(pacer, screen):
