@@ -117,7 +117,7 @@ class Log:
     `crashed` where a program did that."""
 
     def __init__(self, path):
-        self.fatal, self.crashed = "", False
+        self.fatal, self.crashed, self.stopping = "", False, False
         try:
             self.file = open(path, "w", encoding="utf-8", errors="replace")
         except OSError as problem:
@@ -135,7 +135,7 @@ class Log:
             self.fatal = line.rpartition("]: ")[2].strip()
         self.crashed = self.crashed or bool(CRASH.match(line))
         for pattern, text in SHOWN:
-            if pattern.match(line):
+            if pattern.match(line) and not (self.stopping and line.startswith("RLException")):  # of nodes that Ctrl-C left unstarted
                 write(pattern.sub(text, line.rstrip("\n")))
 
 
@@ -171,6 +171,6 @@ class Launch:
         """Again each second: while roslaunch starts, a signal can be lost; once it stops, it heeds no other."""
         if number == signal.SIGINT and not self.interrupted:
             write("stopped by Ctrl-C; what was recorded is kept.")
-        self.interrupted = True
+        self.interrupted = self.log.stopping = True
         self.process.send_signal(signal.SIGINT if number == signal.SIGALRM else number)
         signal.alarm(1)

@@ -69,7 +69,8 @@ def drive(launch_file, words, network, where):
     announce(words, log, network, where)
     launch = Launch(launch_file, words, log, network)
     whole = launch.run() or launch.interrupted
-    return report(words["out"], begin, None if launch.interrupted else log, launch.log.fatal) or int(not whole)
+    why = "." if launch.interrupted else f"; the log {log} says why. {launch.log.fatal}".rstrip()
+    return report(words["out"], begin, why) or int(not whole)
 
 
 def far_session(given):
@@ -167,10 +168,10 @@ def announce(words, log, network, where):
          f"In a second terminal: ./navvi watch prints it in lines; for ROS tools: {network.second_terminal()}")
 
 
-def report(out, begin, log, fatal):
-    """The end of a session, by the summary of its last trial. \\param log  that says why there is none, or None"""
+def report(out, begin, why):
+    """The end of a session, by the summary of its last trial. \\param why  there is none, as the end of a sentence"""
     workspace.show(program("navvi_study", "close_trials"), out)
     folders = trials.written_since(begin, out)
     if not folders:
-        fail(f"the session ended without a trial{f'; the log {log} says why' if log else ''}. {fatal}".strip())
+        fail(f"the session ended without a trial{why}")
     return trials.report(folders[-1])
