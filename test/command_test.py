@@ -376,11 +376,10 @@ def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_c
         (out / name).mkdir(parents=True)
         (out / name / "summary.csv").write_bytes((trial(seed=name[-1]) / "summary.csv").read_bytes())
         os.utime(out / name / "summary.csv", (at, at))
-    assert run.report(out, 1500 * 10**9, "log", "") == 0
+    assert run.report(out, 1500 * 10**9, ".") == 0
     assert "trial-2" in capsys.readouterr().out
-    sentence = refusal(lambda: run.report(out, 4000 * 10**9, "LOG", "there is no map"), 1)
-    assert "LOG" in sentence and "there is no map" in sentence
-    assert refusal(lambda: run.report(out, 4000 * 10**9, None, ""), 1) == "the session ended without a trial."
+    for why in (".", "; the log LOG says why. There is no map."):
+        assert refusal(lambda: run.report(out, 4000 * 10**9, why), 1) == f"the session ended without a trial{why}"
 
 
 def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):

@@ -14,8 +14,6 @@ import re
 import time
 from pathlib import Path
 
-import yaml
-
 from navvi_cli import trials, workspace
 from navvi_cli.arguments import LaunchFile, Words, add_words, words_for
 from navvi_cli.network import FarNetwork, Network
@@ -146,6 +144,7 @@ def check(words):
 
 def check_by_programs(words):
     """The nodes would refuse the same, but only when all have started."""
+    import yaml
     check_parameters(words)
     for name in filter(words.get, PLACES):
         accepted("feedback", FEEDBACK, [f"places:={words[name]}"])
