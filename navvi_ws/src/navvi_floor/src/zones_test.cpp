@@ -130,7 +130,7 @@ TEST(Zones, what_cannot_be_a_zone_is_refused_with_its_line) {
            {"", "must be a list"},
            {"a: 1", "must be a list"},
            {kPress + std::string("- {name: big, kind: rack, corners: [-1, -1, 3, 3, 3, -1, -1, 3]}"),
-            "line 2: the lines between the \"corners\" of \"big\" cross"},
+            "line 3: the lines between the \"corners\" of \"big\" cross"},
            {"{}", "must be a list"},
            {"some words", "must be a list"},
            {"- {name: a, corners: [0, 0, 1, 0, 1, 1]}", "lacks \"kind\""},

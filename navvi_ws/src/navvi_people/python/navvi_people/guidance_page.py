@@ -87,7 +87,7 @@ def page(folder, found, known, notes, day):
         "# Guidance, person by person",
         "No person has driven yet: these are [simulated people](people.md). `./navvi bench guidance TRIALS -o doc/guidance.md` makes this page but for the",
         "notes, and runs what its batches in the folder TRIALS lack; `--as-is` runs nothing.",
-        f"Measured on {day} in world `busy`, on seeds that no tuning saw, limit 600 s. Intervals hold 95 % (bootstrap); changes are beside",
+        f"Measured on {day} in world `busy`, on seeds that no tuning saw but for five traces (Notes), limit 600 s. Intervals hold 95 % (bootstrap); changes are beside",
         "`default` (ticks) over the same worlds. In each world another person of the type drives, the same in all conditions. `sighted` is the",
         "reference: the same hand, led by eyes; `flow` is a steady sound, `hand_alone` the motors without any sound.", "",
         *parts(folder, found), *section("Published effects", "`./navvi bench people TYPE`; 200 persons turn, 40 drive; intervals hold 95 % (jackknife over persons).", known), notes])
