@@ -24,7 +24,8 @@ WAYS = {"words": ("#0072b2", "-"), "ticks": ("#d55e00", "--"), "flow": ("#009e73
 
 def drive(lead, folder):
     """Track and summary of a simulated person's trial; its sound is in the folder."""
-    done = navvi("run", "operator:=simulated", "rviz:=false", f"world:={WORLD[0]}", *WORLD[1], f"feedback/lead:={lead}", f"out:={folder}", **sound(folder))
+    done = navvi("run", "operator:=simulated", "rviz:=false", f"world:={WORLD[0]}", *WORLD[1], f"feedback/lead:={lead}", f"out:={folder}",
+                 **sound(folder))
     assert done.returncode == 0, done.stdout + done.stderr
     trial, = folder.glob("trial-*")
     with open(trial / "summary.csv", newline="") as file:
@@ -52,8 +53,8 @@ def main():
             if lead == "hand":
                 draw_motors(track)
             else:  # from the begin of the trial to its last words
-                subprocess.run(["sox", "--ignore-length", Path(name) / "sound.wav", "-r", "44100", OUT / f"{lead}.ogg",
-                                "trim", f"-{float(summary['elapsed_s']) + 6.0}"], check=True)
+                subprocess.run(["sox", "--ignore-length", Path(name) / "sound.wav", "-r", "44100", "-C", "-1", OUT / f"{lead}.ogg",
+                                *f"reverse trim 0 {float(summary['elapsed_s']) + 6.0} reverse".split()], check=True)
         print(f"{lead}: {summary['result']} after {summary['elapsed_s']} s, {summary['contacts']} contacts", flush=True)
         driven.append((colour, dashes, np.column_stack([track["x"], track["y"]])))
         labels.append(Line2D([], [], color=colour, linestyle=dashes, label=f"{lead}, {float(summary['elapsed_s']):.0f} s"))
