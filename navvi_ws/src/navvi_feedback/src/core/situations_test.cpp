@@ -119,7 +119,7 @@ const std::vector<Row> kTable = {
        become(now, State::goal_refused);
        now.guidance.refusal = Guidance::Refusal::inside_obstacle;
      },
-     "goal refused, something stands there", "", ""},
+     "goal refused, the robot cannot stand there", "", ""},
     {"a goal where nothing is known",
      [](Scene& now) {
        become(now, State::goal_refused);

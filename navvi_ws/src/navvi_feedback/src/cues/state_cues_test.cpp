@@ -67,9 +67,9 @@ TEST_F(StateCuesTest, says_why_a_goal_was_refused_once_a_goal) {
   under_way();
   now_.guidance->state = Guidance::State::goal_refused;
   now_.guidance->refusal = Guidance::Refusal::inside_obstacle;
-  EXPECT_EQ(pass(60.0), Texts{"goal refused, something stands there"});
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, the robot cannot stand there"});
   now_.guidance->goal = {3.0, 3.0};
-  EXPECT_EQ(pass(60.0), Texts{"goal refused, something stands there"});
+  EXPECT_EQ(pass(60.0), Texts{"goal refused, the robot cannot stand there"});
   now_.guidance->refusal = Guidance::Refusal::unreachable;
   EXPECT_EQ(pass(60.0), Texts{"goal refused, it cannot be reached"});
 }

@@ -24,7 +24,7 @@ const char* sentence_of(Guidance::Refusal refusal) {
     case Guidance::Refusal::unreachable:
       return "no floor joins the goal with the robot";
     default:
-      return "the goal is within the robot's radius of an obstacle";
+      return "the goal is within the robot's radius of an obstacle or a closed zone";
   }
 }
 
