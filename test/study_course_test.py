@@ -1,20 +1,15 @@
-"""Studies without a session: what comes next, and the journal after crashes."""
-import errno
-import fcntl
-import functools
+"""Studies without a session: what comes next."""
 import getpass
 import itertools
 import multiprocessing
 import os
-import shutil
 import signal
 import subprocess
-import sys
 import time
 
 import pytest
 
-from small_study import Driver, begin, bench, exclusion, frozen, rehearsed, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
+from small_study import Driver, begin, exclusion, frozen, rehearsed, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
 from navvi_cli import workspace
 from navvi_cli.commands import study as command
 from navvi_study import actions, export, journal, measures, overview, runner, session, study, table
@@ -22,7 +17,6 @@ from navvi_study.analysis import Analysis
 from navvi_study.errors import StudyError
 from sessions import ROOT, eventually
 
-# What comes next.
 
 def test_a_participant_is_led_through_the_plan(work):
     assert rest(work()) == ["s1-c1-trial-1", "s1-c1-tlx", "s1-c2-trial-1", "s1-c2-tlx", "s1-end"]
@@ -387,213 +381,3 @@ while true; do sleep 0.1; done
     actions.stop(args)
     assert "nothing of sub-01 is running" in capsys.readouterr().out
     assert rest(work())[0] == "s1-c1-trial-1"
-
-
-# The journal.
-
-def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
-    kept = journal.Journal(tmp_path / "journal.jsonl")
-    for number in range(3):
-        kept.append("done", number=number)
-    with open(kept.path, "ab") as file:
-        file.write(b'{"seq": 4, "ty')
-    assert [row["number"] for row in journal.Journal(kept.path).rows()] == [0, 1, 2]
-    assert (tmp_path / "journal.torn").read_bytes() == b'{"seq": 4, "ty\n'
-    assert kept.append("done", number=3)["seq"] == 4 and len(journal.Journal(kept.path).rows()) == 4
-    lines = kept.path.read_text().splitlines(keepends=True)
-    for changed in ([lines[0].replace('"number": 0', '"number": 7'), *lines[1:]], [lines[0], *lines[2:]], [*lines[1:]], ["{}\n"]):
-        kept.path.write_text("".join(changed))
-        with pytest.raises(StudyError, match="damaged, changed"):
-            journal.Journal(kept.path).rows()
-    kept.path.write_bytes(b"{")
-    (tmp_path / "journal.torn").unlink()
-    (tmp_path / "journal.torn").mkdir()
-    with pytest.raises(StudyError, match="unfinished row, which cannot be set aside: Is a directory"):
-        journal.Journal(kept.path).rows()
-
-
-SHORTER = {"within a row": lambda lines: lines[:1] + [lines[1][:9]], "by two rows": lambda lines: lines[:-2], "to nothing": lambda lines: [], "by all but its first row": lambda lines: lines[:1]}
-
-
-@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
-def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch, capsys, with_last, how):
-    for name, path in ("version", "test"), ("tool", "true"):
-        monkeypatch.setitem(actions.TOOLS, name, lambda *given, path=path: path)
-    rest(work())
-    kept, whole = work.study, work.study.journal.path.read_bytes()
-    args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False)
-    assert actions.verify(args) == 0
-    kept.journal.path.write_bytes(b"".join(SHORTER[how](whole.splitlines(keepends=True))))
-    if not with_last:
-        kept.journal.last.unlink()
-    named = "done sub-01 s1-end" if with_last else str(trial_of_first(kept)) if how == "within a row" else str(kept.frozen_file)
-    for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
-        with pytest.raises(StudyError) as problem:
-            action(args)
-        assert named in str(problem.value) and "restore" in str(problem.value), action
-    capsys.readouterr()
-    assert actions.verify(args) == 1 and named in capsys.readouterr().out
-    actions.stop(args)
-    actions.status(args)
-    assert named in capsys.readouterr().out
-    kept.journal.path.write_bytes(whole)
-    assert actions.verify(args) == 0
-
-
-def trial_of_first(kept):
-    return kept.attempt_folder("sub-01", "s1-c1-trial-1", 1)
-
-
-def test_a_freeze_and_a_trial_that_were_killed_lack_no_row(tmp_path, monkeypatch):
-    kept = study.Study(small(tmp_path))
-    for fails in "append", "replace":
-        with monkeypatch.context() as disk, pytest.raises(KeyboardInterrupt):
-            disk.setattr(*((kept.journal, "append") if fails == "append" else (study.os, "replace")), functools.partial(killed, os.replace))
-            kept.freeze("test", None)
-        assert study.Study(kept.plan).unrecorded() == []
-    kept.require_frozen()
-    with pytest.raises(KeyboardInterrupt):
-        begin(kept, "killed").next("sub-01")
-    trial_of_first(kept).mkdir()
-    kept.journal.last.write_bytes(b"\0" * 99)  # of a power cut
-    assert study.Study(kept.plan).unrecorded() == [] and rest(begin(kept))[0] == "s1-c1-trial-1"
-
-
-def killed(replace, old, *more, **fields):
-    if fields or str(old).endswith(".next"):
-        raise KeyboardInterrupt
-    replace(old, *more)
-
-
-def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, monkeypatch):
-    synced, real = [], os.fsync
-
-    def fsync(file):
-        path = os.readlink(f"/proc/self/fd/{file}")
-        synced.append(os.path.basename(path))
-        assert os.path.getsize(path), "the bytes have reached the file"
-        if path.endswith(".jsonl"):
-            with open(path, "rb") as other, pytest.raises(BlockingIOError):  # no other program writes meanwhile
-                fcntl.flock(other, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        real(file)
-    monkeypatch.setattr(os, "fsync", fsync)
-    kept, notes = journal.Journal(tmp_path / "one/home/journal.jsonl"), tmp_path / "two/home/notes.jsonl"
-    files = len(os.listdir("/proc/self/fd"))
-    for write, wanted in ((lambda: kept.append("done"), ["home", "journal.jsonl"]), (lambda: kept.append("done"), ["journal.jsonl"]),
-                          (lambda: (kept.path.open("ab").write(b"torn"), kept.rows()), ["journal.torn", "home", "journal.jsonl"]),
-                          (lambda: journal.append_line(notes, {}), ["home", "notes.jsonl"]), (lambda: journal.append_line(notes, {}), ["notes.jsonl"]),
-                          (lambda: study.write_safely(tmp_path / "three/home/key", "{}"), ["key.new", "home"])):
-        write()
-        assert synced == wanted
-        synced.clear()
-    assert len(os.listdir("/proc/self/fd")) == files
-    with pytest.raises(StudyError, match="line.jsonl cannot be written: File exists"):
-        journal.append_line(notes / "line.jsonl", {})
-    with pytest.raises(StudyError, match="key cannot be written: .* give the same command again"):
-        study.write_safely(notes / "key", "{}")
-    kept.path.write_bytes(b"")
-    with pytest.raises(StudyError, match="has become shorter"):
-        kept.rows()
-
-
-def test_D4_a_row_that_may_not_last_is_not_read(tmp_path, monkeypatch):
-    kept = journal.Journal(tmp_path / "journal.jsonl")
-    kept.append("done", number=0)
-
-    def fail(_):
-        raise OSError(errno.EIO, "Input/output error")
-    with monkeypatch.context() as disk:
-        disk.setattr(os, "fsync", fail)
-        with pytest.raises(StudyError, match="cannot be written: Input/output error. Nothing is begun"):
-            kept.append("done", number=1)
-        disk.setattr(os, "write", lambda file, line, write=os.write: write(file, line[:9]))
-        with pytest.raises(StudyError, match="No space left"):
-            kept.append("done", number=2)
-    for one in (kept, journal.Journal(kept.path)):
-        assert [row["number"] for row in one.rows()] == [0]
-    assert kept.append("done", number=3)["seq"] == 2
-
-
-def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
-    for content in (b"{", b"\xff", b"[]", b"{}"):
-        work.study.frozen_file.write_bytes(content)
-        with pytest.raises(StudyError, match="restore it from a copy"):
-            work.study.require_frozen()
-
-
-def _write_for_ever(path):
-    kept = journal.Journal(path)
-    for number in itertools.count():
-        kept.append("done", number=number)
-        sys.stdout.write(f"{number}\n")
-        sys.stdout.flush()
-
-
-def test_kill_9_loses_no_row_that_was_acknowledged_and_doubles_none(tmp_path):
-    path, told = tmp_path / "journal.jsonl", 0
-    for _ in range(3):
-        reader, writer = os.pipe()
-        process = multiprocessing.Process(target=lambda: (os.dup2(writer, 1), setattr(sys, "stdout", os.fdopen(1, "w")), _write_for_ever(path)))
-        process.start()
-        os.close(writer)
-        time.sleep(0.4)
-        os.kill(process.pid, signal.SIGKILL)
-        process.join()
-        with os.fdopen(reader) as lines:
-            acknowledged = sum(1 for _ in lines)
-        rows = journal.Journal(path).rows()
-        assert acknowledged > 3
-        assert told + acknowledged <= len(rows) <= told + acknowledged + 1
-        assert [row["seq"] for row in rows] == list(range(1, len(rows) + 1))
-        told = len(rows)
-
-
-def test_D4_a_full_disk_begins_nothing(work, monkeypatch):
-    monkeypatch.setattr(journal.os, "write", lambda file, line: len(line) // 2)
-    begun = work()
-    with pytest.raises(StudyError, match="cannot be written"):
-        begun.next("sub-01")
-    monkeypatch.undo()
-    assert begun.runner.driven == []
-    assert rest(begun)[0] == "s1-c1-trial-1"
-
-
-def test_a_rehearsal_that_was_killed_goes_on_and_ends_with_the_same_table(tmp_path, bench):
-    whole = rehearsed(tmp_path, bench, [])
-    wanted = [(row["participant"], row["condition"], row["elapsed_s"]) for row in table.trials(whole, whole.progress())]
-    shutil.rmtree(whole.folder)
-    (tmp_path / "calls").unlink()
-    (tmp_path / "wait").touch()
-    process = multiprocessing.Process(target=lambda: (os.setsid(), rehearsed(tmp_path, bench, [])))
-    process.start()
-    assert eventually((tmp_path / "there").exists, 20)
-    os.killpg(process.pid, signal.SIGKILL)
-    process.join()
-    (tmp_path / "wait").unlink()
-    said = []
-    again = rehearsed(tmp_path, bench, said)
-    assert "goes on" in said[0]
-    assert [(row["participant"], row["condition"], row["elapsed_s"]) for row in table.trials(again, again.progress())] == wanted
-    assert len(again.progress().freezes) == 1
-    said.clear()
-    rehearsed(tmp_path, bench, said)
-    assert "goes on" not in said[0], "it was done, and begins anew"
-
-
-def test_a_rehearsal_on_a_full_disk_is_a_sentence_and_goes_on_once_there_is_room(tmp_path, bench, monkeypatch):
-    real, left = os.fsync, [40]
-
-    def fsync(file):
-        left[0] -= 1
-        if left[0] < 0:
-            raise OSError(28, "No space left on device")
-        real(file)
-    monkeypatch.setattr(os, "fsync", fsync)
-    with pytest.raises(StudyError, match="No space left"):
-        rehearsed(tmp_path, bench, [])
-    monkeypatch.undo()
-    said = []
-    kept = rehearsed(tmp_path, bench, said)
-    assert "goes on" in said[0]
-    counted = [(row["participant"], row["condition"]) for row in table.trials(kept, kept.progress()) if row["counts"] == "yes"]
-    assert len(counted) == len(set(counted)) == 8
