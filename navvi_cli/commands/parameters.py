@@ -20,7 +20,7 @@ COLUMNS = ["parameter", "default", "allowed", "meaning"]
 
 def arguments(parser):
     parser.add_argument("filter", nargs="?", default="", metavar="FILTER",
-                        help="only nodes whose name contains it, such as feedback, or else parameters that it tells of, such as turn.")
+                        help="a node, such as feedback, or else a word of the parameters to list, such as turn.")
     parser.add_argument("--csv", action="store_true", help="as a table for a program.")
 
 

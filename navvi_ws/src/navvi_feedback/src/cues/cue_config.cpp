@@ -28,9 +28,9 @@ void NearConfig::describe(navvi_config::Visitor& visit) {
   visit(obstacles, "obstacles", Any{}, "",
         "also name any other thing that the robot drives towards");
   visit(stop_moving, "stop_moving", Range{0.0, 10.0}, "s",
-        "time to collision with what moves at which the word is to stop; 0: never");
+        "time to a collision with a moving thing at which the guide says stop; 0: never");
   visit(stop_standing, "stop_standing", Range{0.0, 10.0}, "s",
-        "the same, with what stands; at most 1 s if the guide turns off before it");
+        "the same for a standing thing; at most 1 s if the path turns off before it");
 }
 
 void CuePolicyConfig::describe(navvi_config::Visitor& visit) {

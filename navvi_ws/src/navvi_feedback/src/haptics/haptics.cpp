@@ -40,7 +40,7 @@ void HapticsConfig::describe(navvi_config::Visitor& visit) {
         "how much of its force a thing right behind the robot has; beside it, half way to all");
   visit(duck, "duck", Range{0.0, 1.0}, "",
         "how much of the force is left while a safety phrase is spoken (R-AUD-6)");
-  visit(rest_at_goal, "rest_at_goal", Any{}, "", "what is near is not felt after the arrival");
+  visit(rest_at_goal, "rest_at_goal", Any{}, "", "near things are not felt after the arrival");
   visit(patterns, "patterns", Any{}, "",
         "hits, stops, a stuck robot, new routes and the arrival are felt, each by its own pattern");
   visit(instead_of_words, "instead_of_words", Any{}, "",

@@ -40,7 +40,7 @@ void NodeConfig::describe(navvi_config::Visitor& visit) {
   visit(record, "record", Any{}, "", "path of a file for how a lesson went; empty for none");
   visit(feedback->lesson, "lesson",
         OneOf{{"none", "glossary", "tutorial", "calibrate", "questionnaire"}}, "",
-        "what is taught or asked before all else; all but the tutorial want no robot");
+        "lesson or questionnaire that comes first; all but the tutorial need no robot");
   visit(feedback->questions, "questions", Any{}, "", "path of the file that a questionnaire asks");
   visit(feedback->locked, "locked", Any{}, "",
         "true: the menu offers neither goals nor settings, as a study has set them");

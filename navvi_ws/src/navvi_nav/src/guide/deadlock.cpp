@@ -25,7 +25,7 @@ bool faces(const MovingThing& thing, Point robot) {
 void DeadlockConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(make_room_after, "make_room_after", Range{0.0, 600.0}, "s",
-        "the robot yields to a thing that closes the only way and faces it for so long; 0: never");
+        "time a thing blocks the only way, facing the robot, until the robot yields; 0: never");
 }
 
 std::vector<Cylinder> area_swept_by(const MovingThing& thing) {

@@ -42,11 +42,9 @@ void NavigatorConfig::describe(navvi_config::Visitor& visit) {
   visit.group("stand_off", deadlock);
   observation.describe(visit);
   visit(carve_period, "carve_period", Range{0.05, 60.0}, "s",
-        "least time between two times the planner is told what moves while nothing asks for a plan "
-        "(R-NAV-5)");
+        "least time between two updates of the planner's moving things without a plan (R-NAV-5)");
   visit(carve_within, "carve_within", Range{10.0, 1e6}, "m",
-        "what drives or walks farther from the robot leaves no hole: it moves on before the robot "
-        "comes");
+        "moving things farther from the robot are not carved: they move on before it comes");
   visit(map_timeout, "map_timeout", Range{0.0, 3600.0}, "s",
         "a map older than this is stale, for a mapper that keeps sending; 0: maps do not age");
 }

@@ -39,8 +39,9 @@ void PathKeeperConfig::describe(navvi_config::Visitor& visit) {
   visit(gain, "gain", Range{0.0, 1.0}, "",
         "share by which a new path must be shorter to replace one that is still free");
   visit(gain_length, "gain_length", Range{0.0, 10.0}, "m",
-        "length by which it must be shorter besides");
-  visit(gain_back, "gain_back", Range{0.0, 100.0}, "m", "and by so much more if it leads back");
+        "length by which it must also be shorter");
+  visit(gain_back, "gain_back", Range{0.0, 100.0}, "m",
+        "additional length by which it must be shorter if it leads back");
   visit(hold_time, "hold_time", Range{0.0, 60.0}, "s",
         "longest time to keep a path on which a collision is predicted; 0: replan at once");
 }

@@ -250,7 +250,7 @@ class NavNode {
       worker_.start(std::move(*request));
     }
     if (navigator_.obstacles_lost() && !lost_before)
-      ROS_WARN("No fresh obstacles come any more; moving things are not in the path.");
+      ROS_WARN("Obstacle messages have stopped; the path ignores moving things.");
     publish_all();
   }
 

@@ -16,7 +16,7 @@ struct GuideCostConfig {
   /// m, length a path may gain to save a turn by 90 degrees; half of it for a slight turn, 1.5 for
   /// one back
   static constexpr double kTurnPrice = 2.0;
-  double preferred_clearance = 0.6;
+  double preferred_clearance = 0.6;  ///< m, beyond the robot's radius
   /// how much dearer a metre without any preferred clearance is
   static constexpr double kClearanceWeight = 3.0;
   /// m, clearance beyond the robot's radius below which the price rises steeply

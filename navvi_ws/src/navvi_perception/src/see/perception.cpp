@@ -43,7 +43,7 @@ struct Values {
     visit(robot_radius, "robot_radius", Range{0.05, 3.0}, "m",
           "of the robot's hull; what is nearer to its middle is the robot itself");
     visit(wall, "wall", Range{0.5, 100.0}, "m",
-          "what stands and is at least so long is called a wall, a rack too; all else is other");
+          "least length of a standing object that is called a wall, a rack too; all else is other");
   }
 };
 

@@ -50,7 +50,7 @@ struct Command {
 
 /// Stops the wheels when no valid command came for `timeout`, when commands come by another link
 /// than before, and when it is asked to; releases them only after the command was neutral for
-/// `neutral_hold`. It begins stopped, so motion always starts from a neutral stick.
+/// kNeutralHold. It begins stopped, so motion always starts from a neutral stick.
 class CommandGate {
  public:
   using State = navvi_types::DriveState::State;
@@ -65,8 +65,8 @@ class CommandGate {
   /// two links of one name send commands they stand still, and the name is an intruder's, too.
   [[nodiscard]] bool admit(const std::string& node, unsigned link);
 
-  /// Takes a command as received. One that is malformed, not finite, `absurd_factor` beyond the
-  /// limits or stamped `ahead` is rejected whole and extends nothing, as does one that comes too
+  /// Takes a command as received. One that is malformed, not finite, kAbsurdFactor beyond the
+  /// limits or stamped kAhead is rejected whole and extends nothing, as does one that comes too
   /// late; one that comes late is slowed, one beyond the limits is clamped. A command later than
   /// `timeout` finds the wheels stopped.
   void receive(const Command& command, const Instant& now);

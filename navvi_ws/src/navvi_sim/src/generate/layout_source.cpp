@@ -57,7 +57,7 @@ LayoutSource read_layout(const std::filesystem::path& file) {
     throw WorldError(error.what());
   } catch (const YAML::Exception& error) {
     throw WorldError(file.string() + ", line " + std::to_string(error.mark.line + 1) +
-                     ": no YAML that a layout can be read from: " + error.msg);
+                     ": cannot parse the layout as YAML: " + error.msg);
   }
 }
 

@@ -108,7 +108,7 @@ class SimNode {
       if (!step()) return;
     }
     if (due == kMostSteps && dropped > 0)
-      ROS_WARN_THROTTLE(5.0, "the simulation is slower than asked for: %ld steps let go so far",
+      ROS_WARN_THROTTLE(5.0, "the simulation is slower than requested: %ld steps skipped so far",
                         dropped);
   }
 

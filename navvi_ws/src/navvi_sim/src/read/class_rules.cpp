@@ -102,7 +102,7 @@ ClassRules ClassRules::read(const std::filesystem::path& file) {
     throw WorldError(problem.what());
   } catch (const YAML::Exception& problem) {
     throw WorldError(file.string() + ", line " + std::to_string(problem.mark.line + 1) +
-                     ": no YAML that rules can be read from: " + problem.msg);
+                     ": cannot parse the rules as YAML: " + problem.msg);
   }
 }
 

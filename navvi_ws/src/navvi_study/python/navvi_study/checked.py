@@ -35,7 +35,7 @@ class _Loader(yaml.SafeLoader):
             node.height = 1 + max((one.height for one in below), default=0)
             node.weight = 1 + sum(one.weight for one in below)
         if node and not hasattr(node, "height"):
-            raise StudyError(f"{self.file}:{line}: an alias stands in what it names; allowed are aliases of what has ended.")
+            raise StudyError(f"{self.file}:{line}: an alias refers to a list or mapping that contains it; allowed are aliases of earlier ones.")
         if not node or node.height > DEEPEST:
             raise StudyError(f"{self.file}:{line}: lists and mappings are nested too deep; allowed are {DEEPEST} in one another.")
         if max(node.weight, self.count) > MOST:

@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
     const navvi_study::tool::ScenePlayer player(argv[1]);
     ros::spin();
   } catch (const std::exception& error) {
-    ROS_WARN("What moved is not in the picture: %s.", error.what());
+    ROS_WARN("The picture lacks the moving things: %s.", error.what());
   }
   return 0;
 }

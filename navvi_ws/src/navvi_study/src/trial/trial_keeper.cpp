@@ -318,7 +318,7 @@ void TrialKeeper::listen() {
   try {
     monitor_.understand(listener_.emplace(phrases));
   } catch (const std::exception& error) {
-    tell(Tone::warning, std::string("The record lacks what sentences ask for: ") + error.what());
+    tell(Tone::warning, std::string("Cues are recorded without their meaning: ") + error.what());
   }
 }
 
