@@ -1,6 +1,8 @@
 #include "navvi_config/ros_parameters.hpp"
 
 #include <XmlRpcValue.h>
+#include <ros/callback_queue.h>
+#include <ros/init.h>
 #include <ros/param.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <csignal>
 #include <fstream>
 
 namespace navvi_config {
@@ -17,6 +20,8 @@ constexpr rlim_t kFiles = 256;
 constexpr rlim_t kMemory = rlim_t{4} << 30U;  // bytes
 
 std::atomic<bool> g_name_taken{false};
+bool g_has_last_messages = false;
+volatile std::sig_atomic_t g_ending = 0;
 
 YAML::Node to_yaml(XmlRpc::XmlRpcValue& value) {
   YAML::Node node;
@@ -70,20 +75,36 @@ void ask_for_priority(int niceness) {
   std::ofstream("/proc/self/autogroup") << niceness;
 }
 
-void on_shutdown_request(const std::function<void()>& end) {
+void init_with_last_messages(int& argc, char** argv, const std::string& name) {
+  g_has_last_messages = true;
+  ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { end(); });
+}
+
+void end() { g_ending = 1; }
+bool ending() { return g_ending != 0; }
+
+void spin() {
+  while (ros::ok() && !ending())
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+}
+
+void flush() { ros::WallDuration(0.05).sleep(); }
+
+void end_on_request() {
   // What the first line to /rosout asks the master for. Asked there for the first time by a node
   // whose name was taken, it would register that node again, and end the other one.
   bool unused = false;
   ros::param::getCached("/rosout_disable_topics_generation", unused);
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind(
-      "shutdown", [end](XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& answer) {
+      "shutdown", [](XmlRpc::XmlRpcValue& request, XmlRpc::XmlRpcValue& answer) {
         const std::string why = request.size() > 1 ? std::string(request[1]) : "";
         if (why.find("new node registered with same name") != why.npos &&
             !g_name_taken.exchange(true))
           ROS_FATAL("Another node has taken the name %s, so this one ends.",
                     ros::this_node::getName().c_str());
-        end();
+        g_has_last_messages ? end() : ros::requestShutdown();
         answer = ros::xmlrpc::responseInt(1, "", 0);
       });
 }

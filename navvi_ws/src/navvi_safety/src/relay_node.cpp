@@ -1,19 +1,15 @@
 // The last stage before a real robot's wheels: turns /navvi/command into the robot's velocity, or
 // stops.
 
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 #include <std_msgs/Bool.h>
 
-#include <csignal>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
 namespace {
-
-volatile std::sig_atomic_t g_stop = 0;
 
 struct NodeConfig {
   navvi_safety::CommandGateConfig gate;
@@ -31,17 +27,26 @@ navvi_safety::Instant instant() {
   return {ros::SteadyTime::now().toSec(), ros::Time::now().toSec()};
 }
 
+/// Velocity of the wheels, zero in the end, whatever ends this.
+struct Wheels {
+  ros::Publisher topic;
+
+  ~Wheels() {
+    topic.publish(geometry_msgs::Twist());
+    navvi_config::flush();
+  }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
-  // roscpp's own handler would close the topics before the last zero is out.
-  ros::init(argc, argv, "relay_node", ros::init_options::NoSigintHandler);
+  navvi_config::init_with_last_messages(argc, argv, "relay_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;
     navvi_safety::CommandGate gate(config.gate);
     navvi_safety::CommandInput input(gate);
-    ros::Publisher wheels = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+    const Wheels wheels{node.advertise<geometry_msgs::Twist>("cmd_vel", 1)};
     ros::Publisher state = node.advertise<navvi_msgs::DriveState>("navvi/drive_state", 1, true);
     using Command = ros::MessageEvent<const geometry_msgs::TwistStamped>;
     const boost::function<void(const Command&)> receive = [&](const Command& command) {
@@ -66,13 +71,11 @@ int main(int argc, char** argv) {
     navvi_safety::LinkOutlet link(node);
     // The time of a person's side on another machine, whose own clock says nothing of this one.
     ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("navvi/clock", 1);
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { g_stop = 1; });
-    navvi_config::on_shutdown_request([] { g_stop = 1; });
 
     bool pressed = false;
     const auto step = [&] {
       if (pressed) gate.stop(navvi_safety::CommandGate::Reason::emergency_stop);
-      wheels.publish(navvi_types::to_msg(gate.update(instant())));
+      wheels.topic.publish(navvi_types::to_msg(gate.update(instant())));
       publish_state();
       rosgraph_msgs::Clock now;
       now.clock = ros::Time::now();
@@ -88,9 +91,7 @@ int main(int argc, char** argv) {
                                               pressed = msg->data;
                                               step();
                                             });
-    while (g_stop == 0) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-    wheels.publish(geometry_msgs::Twist());
-    ros::WallDuration(0.05).sleep();  // lets it leave
+    navvi_config::spin();
     return 0;
   });
 }

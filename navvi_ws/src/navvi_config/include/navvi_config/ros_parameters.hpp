@@ -4,9 +4,9 @@
 #include <ros/node_handle.h>
 #include <sys/stat.h>
 
-#include <functional>
 #include <new>
 #include <optional>
+#include <string>
 
 #include "navvi_config/launcher.hpp"
 #include "navvi_config/reader.hpp"
@@ -40,10 +40,18 @@ void limit_memory();
 /// \param niceness  [-20, -1], of which -20 goes first
 void ask_for_priority(int niceness);
 
-/// Calls `end`, in a thread of ROS, once a master or a person asks this node by XML-RPC to end.
-/// Where the reason is a second node of its name, that is logged as a fatal error, and
-/// name_is_taken() from then on.
-void on_shutdown_request(const std::function<void()>& end);
+/// ros::init for a node with last messages: Ctrl-C, SIGTERM and a request by XML-RPC end spin(),
+/// where roscpp would close the topics at once.
+void init_with_last_messages(int& argc, char** argv, const std::string& name);
+void end();  ///< ends spin()
+[[nodiscard]] bool ending();
+void spin();  ///< handles callbacks until then
+/// Lets the messages that were published leave.
+void flush();
+
+/// Ends this node once a master or a person asks for it by XML-RPC. Where the reason is a second
+/// node of its name, that is logged as a fatal error, and name_is_taken() from then on.
+void end_on_request();
 [[nodiscard]] bool name_is_taken();
 
 /// The rest of a node's main() after ros::init: runs `body` with the parameters, and ends with the
@@ -62,7 +70,7 @@ template <typename Config, typename Body>
     allow_files();
     limit_memory();
     alive.emplace();
-    on_shutdown_request(ros::requestShutdown);
+    end_on_request();
     const int code = body(load<Config>(ros::NodeHandle("~")));
     return name_is_taken() ? 3 : code;
   } catch (const ConfigError& error) {

@@ -1,15 +1,11 @@
 // The person's side: one stick in; rumble, speech and a bright path out.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include <csignal>
 #include <navvi_config/ros_parameters.hpp>
 
 #include "cues/phrases.hpp"
-#include "lessons/questionnaire.hpp"
-#include "navvi_feedback/menu/places_file.hpp"
 #include "navvi_feedback/core/guide.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"
@@ -27,8 +23,6 @@ using devices::Latencies;
 using core::Output;
 
 namespace {
-
-volatile std::sig_atomic_t g_stop = 0;
 
 constexpr double kTick = 0.02;      // s
 constexpr double kReport = 0.25;    // s; trial_node knows within a second that this node hangs
@@ -113,7 +107,7 @@ class FeedbackNode {
 
   void tell(const Output& told, const std::function<void()>& called) {
     settings_.keep(told);
-    if (told.lesson_over) g_stop = 1;
+    if (told.lesson_over) navvi_config::end();
     if (!told.change.empty()) change(told.change);
     if (told.alarm_begins)
       ROS_WARN("There is no audio device: nothing is heard. %s", devices_.audio().detail.c_str());
@@ -173,16 +167,15 @@ class FeedbackNode {
 bool await_master() {
   if (!ros::master::check())
     ROS_WARN("Waiting for the ROS master at %s.", ros::master::getURI().c_str());
-  while (g_stop == 0 && !ros::master::check()) ros::WallDuration(0.2).sleep();
-  return g_stop == 0;
+  while (!navvi_config::ending() && !ros::master::check()) ros::WallDuration(0.2).sleep();
+  return !navvi_config::ending();
 }
 
 void spin(FeedbackNode& node) {
-  while (ros::ok() && g_stop == 0)
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+  navvi_config::spin();
   if (!ros::ok()) return;
   node.finish();
-  ros::WallDuration(0.05).sleep();  // lets the last messages leave
+  navvi_config::flush();
 }
 
 }  // namespace
@@ -195,20 +188,13 @@ int main(int argc, char** argv) {
   if (const auto code =
           navvi_config::print_parameters<NodeConfig>(argc, argv, [](const NodeConfig& config) {
             using namespace navvi_feedback;
-            if (const std::string& places = config.feedback->places; !places.empty())
-              static_cast<void>(menu::read_places(places));
-            if (const std::string& asked = config.feedback->questions; !asked.empty())
-              static_cast<void>(lessons::read_questions(asked));
-            if (!config.phrases.empty()) static_cast<void>(cues::Phrases(config.phrases));
+            const core::Guide would_start(config.feedback, cues::Phrases(config.phrases_file()));
             return config.person.empty() ? YAML::Node(YAML::NodeType::Map)
                                          : PersonFile::of<PersonConfig>(config.person).load();
           }))
     return *code;
   navvi_config::ask_for_priority(-10);
-  // roscpp's own handler would close the topics before the last zero is out.
-  ros::init(argc, argv, "feedback_node", ros::init_options::NoSigintHandler);
-  for (const int signal : {SIGINT, SIGTERM})
-    std::signal(signal, [](int) { navvi_feedback::node::g_stop = 1; });
+  navvi_config::init_with_last_messages(argc, argv, "feedback_node");
   navvi_config::end_with_launcher();
   if (!navvi_feedback::node::await_master()) return 0;
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {

@@ -18,8 +18,6 @@
 namespace navvi_study::node {
 namespace {
 
-volatile sig_atomic_t g_stop = 0;
-
 constexpr double kStep = 0.05;  // s, of the wall timer
 constexpr double kBeat = 0.25;  // s, between two messages of the same state
 constexpr std::uint32_t kQueue = 1000;
@@ -267,17 +265,12 @@ class TrialNode {
 int main(int argc, char** argv) {
   using navvi_study::trial::TrialNodeConfig;
   if (const auto code = navvi_config::print_parameters<TrialNodeConfig>(argc, argv)) return *code;
-  ros::init(argc, argv, "trial_node", ros::init_options::NoSigintHandler);
-  for (const int signal : {SIGINT, SIGTERM})
-    ::signal(signal, [](int) { navvi_study::node::g_stop = 1; });
+  navvi_config::init_with_last_messages(argc, argv, "trial_node");
   ::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error of write(), as any other
   return navvi_config::run_node<TrialNodeConfig>([](const TrialNodeConfig& config) {
     navvi_study::node::TrialNode trials(config);
-    navvi_config::on_shutdown_request([] { navvi_study::node::g_stop = 1; });
-    while (ros::ok()) {
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-      if (navvi_study::node::g_stop != 0) trials.shut_down();
-    }
+    navvi_config::spin();
+    if (navvi_config::ending()) trials.shut_down();
     return trials.exit_code();
   });
 }
