@@ -124,13 +124,13 @@ Allowed allowed_by(const Zone& zone, Point robot, double yaw, double radius) {
 }  // namespace
 
 bool Zone::contains(Point point) const {
-  bool inside = false;
+  int turns = 0;  // of the border round the point, also where it goes round twice
   for_each_edge(corners, [&](Point a, Point b) {
     if ((a.y > point.y) != (b.y > point.y) &&
         point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x))
-      inside = !inside;
+      turns += b.y > a.y ? 1 : -1;
   });
-  return inside;
+  return turns != 0;
 }
 
 Zones::Zones(const std::string& file) {

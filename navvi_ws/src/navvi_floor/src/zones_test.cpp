@@ -99,6 +99,15 @@ TEST(Zones, who_is_in_a_closed_one_is_let_out) {
   EXPECT_GT(inside.backward, 0.1);
 }
 
+TEST(Zones, a_border_that_goes_round_twice_or_touches_itself_encloses_the_same) {
+  for (const char* const corners : {"0, 0, 4, 0, 4, 4, 0, 4, 0, 0, 4, 0, 4, 4, 0, 4", "0, 0, 4, 0, 4, 4, 0, 4, 0, 0",
+                                    "0, 0, 4, 0, 2, 2, 4, 4, 0, 4, 2, 2"}) {
+    const Zones one = zones("- {name: a, kind: rack, corners: [" + std::string(corners) + "]}");
+    EXPECT_TRUE(one.all().front().contains({2.0, 1.0})) << corners;
+    EXPECT_FALSE(one.all().front().contains({5.0, 1.0})) << corners;
+  }
+}
+
 TEST(Zones, closed_ones_are_obstacles_of_the_floor_and_slow_ones_are_not) {
   MapSurvey survey;
   survey.cell_size = 0.1;
