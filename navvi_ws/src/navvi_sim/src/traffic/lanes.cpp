@@ -49,7 +49,17 @@ std::array<double, 4> values_of(const Waypoint& waypoint) {
 /// Equal for things that drive the same round in the same direction and may follow each other:
 /// their class, their speed, way-points beginning with the least, and for a thing that shares its
 /// track with none a number of its own.
-using RoundKey = std::tuple<ThingClass, double, std::size_t, std::vector<std::array<double, 4>>>;
+struct RoundKey {
+  ThingClass thing_class;
+  double speed;
+  std::size_t alone;
+  std::vector<std::array<double, 4>> waypoints;
+
+  bool operator<(const RoundKey& other) const {
+    return std::tie(thing_class, speed, alone, waypoints) <
+           std::tie(other.thing_class, other.speed, other.alone, other.waypoints);
+  }
+};
 
 Footprint footprint_at(const Thing& thing) { return footprint_of(thing, tilt_of(thing.pose)); }
 
@@ -110,7 +120,7 @@ class LaneBuilder {
         std::rotate(round.begin(), std::min_element(round.begin(), round.end(), is_less),
                     round.end());
       RoundKey key{thing.thing_class, route.speed, alone ? id + 1 : 0, {}};
-      for (const Waypoint& waypoint : round) std::get<3>(key).push_back(values_of(waypoint));
+      for (const Waypoint& waypoint : round) key.waypoints.push_back(values_of(waypoint));
       const auto [entry, is_new] = rounds.emplace(key, plans_.size());
       const Footprint print = footprint_at(thing);
       if (is_new) {

@@ -23,4 +23,7 @@ enum class Button {
 };
 constexpr std::size_t kButtons = 14;
 
+/// Of the first of them.
+[[nodiscard]] constexpr bool is_question(Button button) { return button <= Button::help; }
+
 }  // namespace navvi_feedback::drive
