@@ -56,6 +56,7 @@ SESSION = [
     ("/navvi/events", at(130, TrialEvent(type="TRIAL_END", fields="result=aborted;reason=stopped_by_signal"))),
     ("/navvi/trial_state", at(130.1, TrialState(state=TrialState.PREPARING))),
     ("/navvi/guidance", guidance(131, Guidance.FOLLOWING, 40.0)),
+    ("/navvi/cues", said(132, "the trial is over")),
 ]
 LINES = [
     "The trial begins: world busy, seed 3, operator pad. 0 s.",
@@ -68,6 +69,7 @@ LINES = [
     "Wait, the way is blocked, forklift, 12 m to go. 21 s.",
     "Follow the path, 9 m to where the map ends. 25 s.",
     "The trial has ended: aborted, stopped by signal. 30 s.",
+    "Said: the trial is over. 32 s.",
 ]
 
 
@@ -102,6 +104,15 @@ def test_a_recorded_trial_is_told_in_lines_of_which_each_says_something_new(tria
     assert code == 0
     assert lines == [*LINES, "The trial's record ends here."]
     assert all(re.fullmatch(r"[ -~]+", line) for line in lines)
+
+
+def test_of_a_bag_that_lost_its_beginning_the_rest_is_told(tmp_path):
+    with rosbag.Bag(str(tmp_path / "trial.bag"), "w") as bag:
+        for topic, message in SESSION[4:6]:
+            bag.write(topic, message, message.header.stamp)
+    lines = watched(tmp_path, "pace:=0")[1].splitlines()
+    assert lines[-4:] == ["This bag lacks the beginning of the trial.", "Follow the path, 20 m to go. 0 s.", "Said: drive straight, 5 meters. 1 s.",
+                          "The trial's record ends here."]
 
 
 @pytest.mark.parametrize("damage", [

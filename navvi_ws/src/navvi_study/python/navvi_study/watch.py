@@ -225,16 +225,17 @@ def messages_of(bag):
 
 
 def watch_recorded(folder, pacer, screen):
-    teller = Teller()
-    for message in itertools.dropwhile(lambda message: getattr(message, "type", "") != "TRIAL_START", messages_of(folder / "trial.bag")):
-        for line in teller.lines(message):
+    teller, ended = Teller(), False
+    begun = itertools.dropwhile(lambda message: getattr(message, "type", "") != "TRIAL_START", messages_of(folder / "trial.bag"))
+    first = next(begun, None)
+    if first is None:
+        screen.show("This bag lacks the beginning of the trial.")
+    for message in messages_of(folder / "trial.bag") if first is None else itertools.chain([first], begun):
+        for line in teller.lines(message) if not ended or message._type == Cue._type else ():
             pacer.offer(line)
             while pacer.waiting:
                 show_next(pacer, screen)
-        if getattr(message, "type", "") == "TRIAL_END":
-            break
-    if teller.start is None:
-        screen.show("No trial began in this record.")
+        ended = ended or getattr(message, "type", "") == "TRIAL_END"
 
 
 def show_next(pacer, screen):
