@@ -6,7 +6,7 @@ import shutil
 import signal
 import subprocess
 
-from .places import DEVEL, SHELL, WORKSPACE, program
+from .places import DEVEL, SHELL, WORKSPACE, program, share
 from .say import fail
 from .version import version
 from .workspace import END_WITH_US, build, enter, is_current
@@ -20,7 +20,8 @@ SHOWN = [(re.compile(pattern), text) for pattern, text in [
     (r"^\[ *WARN\] \[[^]]*\]: (.*)", r"warning: \1"),
     (r"^\[ *INFO\] \[[^]]*\]: ((?:Trial [^ ]* has begun|Trial ended).*)", r"\1"),
     (r"^\[ *INFO\] \[[^]]*\]: Found: (.*)", r"found and saved: \1"),
-    (r".*REQUIRED process \[trial_node.*has died!.*", "the session has ended."),
+    (r"^process has finished cleanly", "the session has ended."),
+    (r"^process has died .*exit code ([-0-9]+),.* __name:=(\w+).*", r"error: \2 has ended with exit code \1."),
     (r".*REQUIRED process \[(?!trial_node)([a-z_]*)[^]]*\] has died!.*", r"\1 has ended, and the session with it."),
     (r"^\[([a-z_]*)-[0-9]*\] process has died \[.*exit code ([-0-9]*).*", r"warning: \1 has ended with exit code \2 and is started anew."),
     (r"^RLException: (.*)", r"error: \1"),
@@ -76,7 +77,8 @@ def nodes_of(words):
 
 def accepted(part, node, parameters):
     """Parameters as YAML, if the node takes them."""
-    checked = subprocess.run([str(node), "--parameters", *parameters], text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    packages = dict(os.environ, ROS_PACKAGE_PATH=str(share("")))  # of the phrases
+    checked = subprocess.run([str(node), "--parameters", *parameters], env=packages, text=True, errors="replace", capture_output=True)
     if checked.returncode:
         fail(f"{part}_node refuses this: {checked.stderr.strip()}", 2)
     return checked.stdout.strip()
@@ -162,8 +164,9 @@ class Launch:
         for line in self.process.stdout:
             self.log.take(line.decode(errors="replace"))
         status = self.process.wait()
-        signal.alarm(0)
         for number, handler in before.items():
+            if number == signal.SIGALRM:  # the last one: no other sets the alarm again
+                signal.alarm(0)
             signal.signal(number, handler)
         return status == 0 and not self.log.crashed
 

@@ -170,7 +170,9 @@ def test_zones_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, m
 
 @pytest.mark.parametrize("old, new, says", [
     ("lead: words", "lead: wrods", "lead\" is wrods; allowed is one of words, ticks, flow, hand"), ("feedback/lead", "feedback/ledd", "nearest is lead"),
-    ("feedback/lead: words", "sim/seed: 3", "seed"), ("feedback/lead: words", "touch/lead: 3", "\"touch\" has no parameters")])
+    ("feedback/lead: words", "sim/seed: 3", "seed"),
+    ("feedback/lead: words", "feedback/lead: hand", "lead is hand, but haptics/enabled is false"),
+    ("feedback/lead: words", "feedback/haptics/classes: [lamp]", "lamp"), ("feedback/lead: words", "touch/lead: 3", "\"touch\" has no parameters")])
 def test_parameters_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, monkeypatch, old, new, says):
     monkeypatch.setattr(workspace, "is_current", lambda *programs: True)
     for name, given in ("version", lambda: "test"), ("tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name), ("accept", command._accept):

@@ -327,7 +327,7 @@ def _require_runnable(plan):
     for condition in plan.conditions:
         try:
             if condition.parameters:
-                TOOLS["accept"]([f"{name}:={value}" for name, value in condition.parameters])
+                TOOLS["accept"]([f"{name}:={value}" for name, value in condition.arguments().items() if "/" in name])
         except StudyError as problem:
             raise StudyError(f"{plan.file}: condition {condition.name}: {problem}") from None
 
