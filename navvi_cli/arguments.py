@@ -107,7 +107,7 @@ class Words(dict):
         if name in self.choices and value not in self.choices[name]:
             fail(f"{name}:={value} is not allowed; allowed are: {' '.join(self.choices[name])}", 2)
         form, allowed = FORMS.get(name, (".*", ""))
-        if not re.fullmatch(form, value, re.S):
+        if not re.fullmatch(form, value, re.S) or name == "seed" and int(value) >= 2**31:
             fail(f"{name}:={value} is not allowed; allowed are {allowed}.", 2)
 
     def parameters_of(self, part):
@@ -146,8 +146,9 @@ def number(name, least, most, kind=int):
 def trial_in(word, holds="trial.bag"):
     """The path of a trial's folder, also by the folder that holds it alone, as records of a batch are."""
     path = Path(os.path.abspath(word))
-    inside = [*path.glob(f"trial-*/{holds}")]
-    path = inside[0].parent if len(inside) == 1 else path
+    inside = [*path.glob("trial-*")]
+    if len(inside) == 1 and not (path / holds).exists():
+        path = inside[0]
     if not (path / holds).is_file():
         fail(f"{word} holds no {holds}; the folder of a trial is allowed, such as trials/trial-20260101T120000Z.", 2)
     return path

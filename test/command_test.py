@@ -171,6 +171,7 @@ def test_words_become_values_and_parameters(launch_file):
 @pytest.mark.parametrize("word, sentence", [
     ("fast", "arguments look like name:=value"), ("gone:=1", "\"gone\" is unknown; known are: seed view"), ("inner:=1", "is unknown"),
     ("version:=1", "is unknown"), ("sim_parameters:={}", "is unknown"), ("seed:=$(env HOME)", "holds \"$(\""), ("seed:=-1", "whole numbers from 0 to 2147483647"),
+    ("seed:=2147483648", "whole numbers from 0 to 2147483647"),
     ("view:=wide", "allowed are: chase top forward"), ("nav/x:=1", "those of sim can be given"), ("sim/seed:=1", "allowed is seed:=1"),
     ("sim/mode:=1", "the session itself sets it"), ("seed:=1 seed:=2", "given twice"), ("person:=a person:=b", "given twice"),
     ("see[d]:=1", "\"see[d]\" is unknown"),
@@ -251,7 +252,10 @@ def test_a_port_on_which_anybody_listens_is_not_ours(locks):
     ("\x1b[33m[ WARN] [1.0]: slow\x1b[0m", "navvi: warning: slow"),
     ("[ERROR] [1.0, 2.0]: bad", "navvi: error: bad"),
     ("\x1b]2;title\x07[ INFO] [1.0]: noise", ""),
-    ("REQUIRED process [trial_node-5] has died!", "navvi: the session has ended."),
+    ("REQUIRED process [trial_node-5] has died!", ""),
+    ("process has finished cleanly", "navvi: the session has ended."),
+    ("process has died [pid 7, exit code -11, cmd /lib/trial_node _out:=/tmp __name:=trial_node __log:=a.log].",
+     "navvi: error: trial_node has ended with exit code -11."),
     ("REQUIRED process [sim_node-5] has died!", "navvi: sim_node has ended, and the session with it."),
     ("[nav_node-2] process has died [pid 7, exit code -11, cmd x].", "navvi: warning: nav_node has ended with exit code -11 and is started anew."),
     ("RLException: no such file", "navvi: error: no such file"),
@@ -320,6 +324,16 @@ def test_a_record_of_a_batch_is_found_by_its_number(tmp_path):
             (tmp_path / name).mkdir()
             (tmp_path / name / "trial.bag").write_text("")
             assert arguments.trial_in(str(tmp_path)) == tmp_path / name
+    (tmp_path / "trial.bag").write_text("")
+    assert arguments.trial_in(str(tmp_path)) == tmp_path
+
+
+def test_of_two_records_the_only_one_with_a_bag_is_not_taken_for_the_one_that_was_meant(tmp_path):
+    for name in "trial-1", "trial-2":
+        (tmp_path / name).mkdir()
+    (tmp_path / "trial-1/trial.bag").write_text("")
+    with pytest.raises(Failure):
+        arguments.trial_in(str(tmp_path))
 
 
 @pytest.fixture

@@ -61,9 +61,9 @@ class Trial(NamedTuple):
 
 
 def span(text, option):
-    found = re.fullmatch(r"(\d{1,10})(?:-(\d{1,10}))?", text)
+    found = re.fullmatch(r"(\d{1,9})(?:-(\d{1,9}))?", text)
     if not found or not 0 <= int(found[2] or found[1]) - int(found[1]) < MOST_TRIALS:
-        raise BatchError(f"{option} has \"{text}\"; allowed are a number, or two such as 1-20, and {MOST_TRIALS} seeds at most.")
+        raise BatchError(f"{option} has \"{text}\"; allowed are a number of at most nine digits, or two such as 1-20, and {MOST_TRIALS} seeds at most.")
     return range(int(found[1]), int(found[2] or found[1]) + 1)
 
 
