@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFinest = 0.0063;  // m, of a cell
 constexpr double kRounding = 1e-6;  // cells
-constexpr int kAround = 2;          // cells
+constexpr int kAround = 3;          // cells
 constexpr int kAside = 2 * kAround + 1;
 
 /// Parts of a cell's side, a power of two up to kStepsPerCellSide.
@@ -21,28 +21,29 @@ int parts_of(double cell) {
   return parts;
 }
 
-/// Open cells around one, kAside x kAside, a bit each, row by row: none beside it, or several
-/// pieces.
-bool strait(std::uint32_t open) {
-  constexpr std::uint32_t kLeft = 0x108421, kBeside = 0x739c0;  // the first column; 3 x 3
-  std::uint32_t piece = open & (~open + 1), before = 0;
+/// Open cells around one, kAside x kAside, a bit each, row by row: none but at the rim, or several
+/// pieces. A way that only parts of cells open has such a place: where none is, what is open near
+/// one cell of it is joined to what is open near the next.
+bool strait(std::uint64_t open) {
+  constexpr std::uint64_t kLeft = 0x40810204081, kNear = 0x1f3e7cf9f00;  // first column; 5 x 5
+  constexpr std::uint64_t kRight = kLeft << (kAside - 1);
+  std::uint64_t piece = open & (~open + 1), before = 0;
   while (piece != before) {
     before = piece;
-    piece |=
-        (piece << kAside | piece >> kAside | (piece & ~(kLeft << 4)) << 1 | (piece & ~kLeft) >> 1) &
-        open;
+    piece |= (piece << kAside | piece >> kAside | (piece & ~kRight) << 1 | (piece & ~kLeft) >> 1) &
+             open;
   }
-  return (open & kBeside) == 0 || piece != open;
+  return (open & kNear) == 0 || piece != open;
 }
 
-std::uint32_t open_around(const map::Floor& floor, map::Cell cell) {
+std::uint64_t open_around(const map::Floor& floor, map::Cell cell) {
   const map::Area around = map::grown({cell, {cell.x + 1, cell.y + 1}}, kAround);
   const bool inside = clipped(around, floor.area()) == around;
-  std::uint32_t open = 0;
+  std::uint64_t open = 0;
   for (int y = around.high.y - 1; y >= around.low.y; --y) {
     const std::uint8_t* row = inside ? floor.open_row(y) - floor.origin().x : nullptr;
     for (int x = around.high.x - 1; x >= around.low.x; --x)
-      open = open << 1 | (inside ? row[x] : static_cast<std::uint32_t>(floor.open({x, y})));
+      open = open << 1 | (inside ? row[x] : static_cast<std::uint64_t>(floor.open({x, y})));
   }
   return open;
 }
