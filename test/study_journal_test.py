@@ -12,9 +12,8 @@ import time
 
 import pytest
 
-from small_study import begin, bench, rehearsed, rest, small, words, work  # noqa: F401
-from navvi_cli.commands import study as command
-from navvi_study import actions, export, journal, runner, session, study, table
+from small_study import Driver, begin, bench, exclusion, rehearsed, rest, small, trial_of, words, work  # noqa: F401
+from navvi_study import actions, journal, report, study, table, verify
 from navvi_study.errors import StudyError
 from sessions import eventually
 
@@ -147,6 +146,44 @@ def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
         work.study.frozen_file.write_bytes(content)
         with pytest.raises(StudyError, match="restore it from a copy"):
             work.study.require_frozen()
+
+
+@pytest.mark.parametrize("damage", [
+    lambda data: data[:len(data) // 3], lambda data: data[:-1], lambda data: data.replace(b"reached", b"r\xffached"),
+    lambda data: data.replace(b"elapsed_s", b"elapsed_z"), None], ids=["cut", "no end", "bytes", "title", "missing"])
+def test_a_trial_whose_summary_is_damaged_stops_the_report_until_it_is_excluded(work, monkeypatch, damage):
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    rest(work())
+    attempt, trial = trial_of(work.study)
+    path = trial / "summary.csv"
+    path.write_bytes(damage(path.read_bytes())) if damage else path.unlink()
+    args = words(work.study, only="time", blind=False, bids=True)
+    for action in actions.report, actions.table, actions.export:
+        with pytest.raises(StudyError, match=f"{path} .*study exclude {args.plan} sub-01/{attempt.trial} --reason"):
+            action(args)
+    sentences, bad = verify.verify(work.study, work.study.progress(), "true")
+    assert bad == 1 and "files differ: summary.csv" in sentences[0] and "table differs: summary.csv is missing or damaged" in sentences[0]
+    actions.exclude(exclusion(work.study, f"sub-01/{attempt.trial}", "its summary is lost"))
+    rows = table.trials(work.study, work.study.progress())
+    assert [(row["counts"], row["excluded"], "result" in row) for row in rows] == [("no", "its summary is lost", False), ("yes", "n/a", True)]
+    assert report.page(work.study, work.study.progress(), rehearsed=False)
+
+
+def test_a_trial_whose_summary_was_cut_and_cannot_be_made_again_was_driven_and_is_replaced(work):
+    class Cut(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            super().trial(participant, step, attempt, folder, lock)
+            if len(self.driven) == 1:
+                path = folder / "trial-1/summary.csv"
+                path.write_bytes(path.read_bytes()[:9])
+                raise KeyboardInterrupt
+    begun = begin(work.study, driver=Cut)
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    rest(begun)
+    assert begun.runner.driven[:2] == [("easy", 1), ("easy", 11)], "its world was met"
+    rows = table.trials(work.study, work.study.progress())
+    assert [(row["trial"], row["counts"], row["excluded"]) for row in rows[:2]] == [("trial-1", "no", "the trial broke off"), ("trial-2", "yes", "n/a")]
 
 
 def _write_for_ever(path):

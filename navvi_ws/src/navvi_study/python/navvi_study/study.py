@@ -15,9 +15,10 @@ from pathlib import Path
 
 from . import plan_file
 from .errors import StudyError
-from .journal import Journal, append_line, lines_of, read_lines, rows_of, sync_folder, utc_now
+from .journal import Journal, append_line, lines_of, read_lines, sync_folder, utc_now
 from .plan import Group
 from .progress import Progress
+from .record import summary_of
 
 # What each line of a participant's files holds at least.
 FIELDS = {
@@ -225,11 +226,17 @@ class Study:
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
 
-    def summary(self, participant, attempt, trial=""):
-        """The summary of an attempt's trial, or of that leg of it; empty where none was written."""
-        if not attempt.trial:
-            return {}
-        return read_summary(self.attempt_folder(participant, attempt.step, attempt.number) / (trial or attempt.trial))
+    def summary(self, participant, attempt, trial="", strict=True):
+        """The summary of an attempt's trial, or of that leg of it. Raises StudyError where it is damaged; not so, and it is empty, where the
+        trial is excluded, or without `strict`."""
+        trial = trial or attempt.trial
+        try:
+            return summary_of(self.attempt_folder(participant, attempt.step, attempt.number) / trial) if trial else {}
+        except StudyError as problem:
+            if not strict or attempt.excluded and not attempt.dropped_out:
+                return {}
+            raise StudyError(f"{problem} Or go on without the trial: "
+                             f"./navvi study exclude {self.plan.file} {participant}/{trial} --reason TEXT") from None
 
     def finish_erasing(self):
         """What was to be deleted is deleted, also after a crash amid that."""
@@ -254,11 +261,6 @@ def _read_frozen(path):
     with contextlib.suppress(OSError, ValueError, LookupError, TypeError):
         values = json.loads(path.read_bytes())
         return {key: values[key] for key in ("hash", "plan")}
-
-
-def read_summary(folder):
-    """Empty where none was written, or where it was cut off."""
-    return next((row for row in rows_of(folder / "summary.csv") if None not in (*row, *row.values())), {})
 
 
 def write_safely(path, content):
