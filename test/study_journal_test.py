@@ -11,11 +11,12 @@ import sys
 import time
 
 import pytest
+import rosbag
 
-from small_study import Driver, begin, bench, exclusion, rehearsed, rest, small, trial_of, words, work  # noqa: F401
-from navvi_study import actions, journal, report, study, table, verify
+from small_study import Driver, begin, bench, exclusion, frozen, rehearsed, rest, small, trial_of, words, work  # noqa: F401
+from navvi_study import actions, journal, report, runner, session, study, table, verify
 from navvi_study.errors import StudyError
-from sessions import eventually
+from sessions import ROOT, eventually
 
 
 def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
@@ -184,6 +185,46 @@ def test_a_trial_whose_summary_was_cut_and_cannot_be_made_again_was_driven_and_i
     assert begun.runner.driven[:2] == [("easy", 1), ("easy", 11)], "its world was met"
     rows = table.trials(work.study, work.study.progress())
     assert [(row["trial"], row["counts"], row["excluded"]) for row in rows[:2]] == [("trial-1", "no", "the trial broke off"), ("trial-2", "yes", "n/a")]
+
+
+def test_the_bag_of_a_trial_that_a_power_cut_ended_is_no_difference_once_it_is_repaired(tmp_path):
+    programs = ROOT / "navvi_ws/devel/lib/navvi_study"
+
+    class Cut(runner.LoopRunner):
+        """The power fails a moment before the trial's end; the disk has all until then."""
+        def trial(self, *given):
+            super().trial(*given)
+            trial, = given[3].glob("trial-*")
+            lines = (trial / "journal.csv").read_bytes().splitlines(keepends=True)
+            (trial / "journal.csv").write_bytes(b"".join(lines[:next(at for at, line in enumerate(lines) if b",TRIAL_END," in line)]))
+            with rosbag.Bag(str(trial / "trial.bag")) as bag, rosbag.Bag(str(trial / verify.OPEN), "w") as other:
+                for topic, message, stamp in itertools.takewhile(lambda one: getattr(one[1], "type", "") != "TRIAL_END", bag.read_messages()):
+                    other.write(topic, message, stamp)
+            (trial / "trial.bag").unlink()
+            (trial / "summary.csv").unlink()
+            raise KeyboardInterrupt
+
+        def close(self, folder):
+            runner.LiveRunner.close(self, folder)
+    kept = frozen(tmp_path, ("limit: 60", "limit: 2"))
+    driver = Cut(kept, programs / "trials_bench", "test")
+    driver.close_trials = programs / "close_trials"
+    begun = session.Session(kept, driver, say=lambda line: None, wait=False)
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    begun.recover("sub-01")
+    _, trial = trial_of(kept)
+
+    def verified():
+        return verify.verify(kept, kept.progress(), programs / "count_trial")
+    (sentence,), bad = verified()
+    assert bad == 1 and "files equal, journal equal, bag was not closed" in sentence
+    (trial / verify.OPEN).rename(trial / "trial.bag")
+    (sentence,), bad = verified()
+    assert bad == 0 and "files equal, journal equal, bag no end, as the trial's record broke off, table equal." in sentence
+    (trial / "trial.bag").unlink()
+    (sentence,), bad = verified()
+    assert bad == 1 and f"files differ: {verify.OPEN}," in sentence
 
 
 def _write_for_ever(path):

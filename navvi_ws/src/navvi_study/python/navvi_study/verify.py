@@ -3,10 +3,12 @@ import subprocess
 
 from . import table
 from .journal import sum_of
+from .record import Record
 from .study import FIELDS
 
 EQUAL = "equal"
 OPEN = "trial.bag.active"  # what a power cut leaves of a bag
+RECOVERED = ("ended_without_a_word", "journal_damaged")  # reasons of a TRIAL_END that close_trials wrote
 
 
 def verify(study, progress, count_trial):
@@ -41,7 +43,8 @@ def notes_and_answers(study, progress):
 
 def _files(folder, sums):
     """They are as they were when the trial ended."""
-    wrong = [name for name, known in sums.items() if name != OPEN and sum_of(folder / name) != known]  # that is to become a bag
+    repaired = [OPEN] if (folder / "trial.bag").is_file() else []
+    wrong = [name for name, known in sums.items() if name not in repaired and sum_of(folder / name) != known]
     return "differ: " + ", ".join(wrong) if wrong else EQUAL if sums else "no sums"
 
 
@@ -59,7 +62,10 @@ def _bag(program, folder, row):
         recorded = row.get("bag", "n/a")
         return "is missing" if recorded == "ok" else "no bag" if recorded in ("n/a", "none") else f"no whole bag, recorded as {recorded}"
     result = subprocess.run([str(program), "bag", str(folder)], capture_output=True, errors="replace", check=False)
-    return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[:3])
+    said, end = (result.stderr or result.stdout).strip(), Record(folder).first("TRIAL_END")
+    if "the bag does not hold the trial's end" in said and end and end.fields.get("reason") in RECOVERED:
+        return "no end, as the trial's record broke off"
+    return EQUAL if result.returncode == 0 else "differs: " + "; ".join(said.splitlines()[:3])
 
 
 def _table(study, row, attempt):
