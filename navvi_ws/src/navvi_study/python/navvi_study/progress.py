@@ -12,6 +12,7 @@ class Attempt:
     number: int  # from 1
     world: str
     seed: int
+    seq: int = 0  # of the journal's row with which it began
     ended: bool = False
     trial: str = ""  # its folder's name; empty where no trial began
     result: str = ""  # empty until it has ended
@@ -67,7 +68,6 @@ class Progress:
         self.plan = plan
         self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
         self.freezes, self.analyses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis"))
-        self.unblinded = sum(row["type"] == "end" and bool(row["trial"]) for one in self.analyses for row in rows[one["seq"]:])  # trials
         for row in rows:
             if row["type"] not in ("freeze", "analysis"):
                 getattr(self, "_" + row["type"])(row)
@@ -113,7 +113,7 @@ class Progress:
 
     def _begin(self, row):
         self.people[row["participant"]].attempts.append(Attempt(
-            row["step"], row["attempt"], row["world"], row["seed"], replaces=row["replaces"]))
+            row["step"], row["attempt"], row["world"], row["seed"], row["seq"], replaces=row["replaces"]))
 
     def _end(self, row):
         attempt = self._attempt(row)
