@@ -2,6 +2,7 @@
 import errno
 import fcntl
 import functools
+import html
 import itertools
 import multiprocessing
 import os
@@ -49,7 +50,8 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
         monkeypatch.setitem(actions.TOOLS, name, lambda *given, path=path: path)
     rest(work())
     kept, whole = work.study, work.study.journal.path.read_bytes()
-    args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False)
+    args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False,
+                 accept_loss=None)
     assert actions.verify(args) == 0
     kept.journal.path.write_bytes(b"".join(SHORTER[how](whole.splitlines(keepends=True))))
     if not with_last:
@@ -58,7 +60,7 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
         with pytest.raises(StudyError) as problem:
             action(args)
-        assert named in str(problem.value) and "restore" in str(problem.value), action
+        assert named in str(problem.value) and "restore" in str(problem.value) and "--accept-loss" in str(problem.value), action
     capsys.readouterr()
     assert actions.verify(args) == 1 and named in capsys.readouterr().out
     actions.stop(args)
@@ -66,6 +68,52 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     assert named in capsys.readouterr().out
     kept.journal.path.write_bytes(whole)
     assert actions.verify(args) == 0
+    with pytest.raises(StudyError, match="nothing to accept"):
+        actions.verify(words(kept, accept_loss="the disk failed"))
+
+
+@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
+def test_a_loss_that_is_accepted_is_named_and_nothing_is_driven_or_asked_again(work, monkeypatch, capsys, with_last, how):
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
+    rest(work("aborted"))
+    kept = work.study
+    rows, answers, lines = table.trials(kept, kept.progress()), kept.answers("sub-01"), kept.journal.path.read_bytes().splitlines(keepends=True)
+    kept.journal.path.write_bytes(b"".join(SHORTER[how](lines)))
+    if not with_last:
+        kept.journal.last.unlink()
+    kept = study.Study(kept.plan)
+    lost = [*kept.unrecorded()]
+    assert actions.verify(words(kept, accept_loss="the disk failed")) == 0 and not kept.unrecorded()
+    if not kept.progress().freezes:
+        kept.freeze("test", None)
+    begun = begin(kept)
+    rest(begun)
+    assert begun.runner.driven == [] and kept.answers("sub-01") == answers and table.trials(kept, kept.progress()) == rows
+    named = f'for the reason "the disk failed": {", ".join(lost)}.'
+    capsys.readouterr()
+    assert actions.verify(words(kept, accept_loss=None)) == 0 and named in capsys.readouterr().out
+    assert named in html.unescape(report.page(kept, kept.progress(), rehearsed=False))
+
+
+def test_who_withdraws_is_erased_also_where_the_journal_has_lost_rows(work, monkeypatch, capsys):
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
+    rest(work())
+    kept, args = work.study, words(work.study, participant="sub-01", data="delete", accept_loss=None)
+
+    def cut(rows):
+        kept.journal.path.write_bytes(b"".join(kept.journal.path.read_bytes().splitlines(keepends=True)[:-rows]))
+    cut(2)
+    actions.withdraw(args)
+    assert not kept.home("sub-01").exists() and "withdraw again" in capsys.readouterr().out
+    assert "done sub-01 s1-end" in str(study.Study.of(args.plan).unrecorded()), "the copy of the last row tells of the loss still"
+    study.Study.of(args.plan).accept_loss("the disk failed")
+    args.participant = "sub-02"
+    actions.withdraw(args)
+    cut(1)
+    for action, code in (actions.stop, None), (actions.status, None), (actions.verify, 1):
+        assert action(args) == code
+        capsys.readouterr() if action == actions.stop else None
+    assert "(erased sub-02)" in capsys.readouterr().out
 
 
 def trial_of_first(kept):
@@ -78,13 +126,13 @@ def test_a_freeze_and_a_trial_that_were_killed_lack_no_row(tmp_path, monkeypatch
         with monkeypatch.context() as disk, pytest.raises(KeyboardInterrupt):
             disk.setattr(*((kept.journal, "append") if fails == "append" else (study.os, "replace")), functools.partial(killed, os.replace))
             kept.freeze("test", None)
-        assert study.Study(kept.plan).unrecorded() == []
+        assert study.Study(kept.plan).unrecorded() == {}
     kept.require_frozen()
     with pytest.raises(KeyboardInterrupt):
         begin(kept, "killed").next("sub-01")
     trial_of_first(kept).mkdir()
     kept.journal.last.write_bytes(b"\0" * 99)  # of a power cut
-    assert study.Study(kept.plan).unrecorded() == [] and rest(begin(kept))[0] == "s1-c1-trial-1"
+    assert study.Study(kept.plan).unrecorded() == {} and rest(begin(kept))[0] == "s1-c1-trial-1"
 
 
 def killed(replace, old, *more, **fields):

@@ -67,9 +67,9 @@ class Progress:
     def __init__(self, plan, rows):
         self.plan = plan
         self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
-        self.freezes, self.analyses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis"))
+        self.freezes, self.analyses, self.losses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis", "loss"))
         for row in rows:
-            if row["type"] not in ("freeze", "analysis"):
+            if row["type"] not in ("freeze", "analysis", "loss"):
                 getattr(self, "_" + row["type"])(row)
 
     def person(self, name):

@@ -312,6 +312,7 @@ def quality(study, progress):
     return [["trials", len(rows)], ["messages missed", shown(total("missed_messages"))], ["safe stops", shown(total("safe_stop_count"))],
             ["bags", ", ".join(f"{state} {count}" for state, count in bags.items()) or "none"],
             ["versions of NavVI", ", ".join(f"{version} {count}" for version, count in versions.items()) or "none"],
+            ["rows that the journal has lost", " ".join(overview.losses(progress)) or "none"],
             ["lines of notes and answers that cannot be read", sum(len(study.unread(name)) for name in progress.people)],
             ["interventions", shown(total("interventions"))], ["marks and notes", shown(total("marks"))],
             ["practice without its criterion", f"{sum(not row['mastered'] for row in practice)} of {len(practice)}"]]
