@@ -63,9 +63,10 @@ def opening(progress):
     if progress.plan.order == "drawn":
         drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 is in the journal since then." if progress.over else
                  " Orders are drawn by a seed that is printed here once nobody is left to begin.")
+    begun = [attempt.seq for *_, attempt in driven(progress, "trial")]
     blind = "".join(f" Conditions were letters until {row['utc'][:10]}, when the blinded report had the SHA-256 {row['report']}; "
                     + (f"not all participants were through, for the reason \"{row['reason']}\"; " if row.get("reason") else "")
-                    + f"trials after that: {sum(attempt.seq > row['seq'] for *_, attempt in driven(progress, 'trial'))}." for row in progress.analyses)
+                    + f"trials after that: {sum(seq > row['seq'] for seq in begun)}." for row in progress.analyses)
     return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}{blind}"
 
 
