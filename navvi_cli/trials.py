@@ -1,10 +1,9 @@
 """What a trial left in its folder."""
-import csv
-import re
 from pathlib import Path
 
 from .places import NAVVI  # first, as it says where the next one is
-from navvi_study.record import Record  # noqa: E402
+from navvi_study.errors import StudyError  # noqa: E402
+from navvi_study.record import Record, summary_of  # noqa: E402
 from .say import fail
 
 # What a person reads at a session's end; all of it by ./navvi show.
@@ -12,18 +11,10 @@ BRIEF = ["path_length_m", "safe_stop_count", "cues_spoken"]
 
 
 def summary(folder):
-    path = Path(folder) / "summary.csv"
     try:
-        text = path.read_bytes().decode(errors="replace")
-        names, cells = csv.reader(text[:-1].split("\n"), strict=True)
-        row = dict(zip(names, cells, strict=True))
-        if not text.endswith("\n") or not re.fullmatch("[ -~]+", sentence(row)):
-            raise ValueError
-        return row
-    except OSError as problem:
-        fail(f"{path} cannot be read: {problem.strerror}; the folder of a trial that has ended is allowed.", 2)
-    except (ValueError, KeyError, csv.Error):
-        fail(f"{path} is damaged; allowed is a line of titles and a line of as many cells, as a trial writes them. Restore it from a copy.", 2)
+        return summary_of(Path(folder))
+    except StudyError as problem:
+        fail(str(problem), 2)
 
 
 def require_end(folder, row):

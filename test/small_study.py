@@ -125,7 +125,7 @@ echo "$@" >> {tmp_path}/calls
 if test -e {tmp_path}/wait && test $(wc -l < {tmp_path}/calls) -gt 3; then touch {tmp_path}/there; sleep 30; fi
 for word in "$@"; do case $word in --out=*) out=${{word#--out=}}/trial-easy-1 ;; esac; done
 mkdir -p $out
-printf 'trial,started_utc,result,reason,elapsed_s,path_length_m,first_path_length_m\ntrial-easy-1,2026-01-01T00:00:00Z,reached,n/a,20.0,12.0,10.0\n' > $out/summary.csv
+printf 'trial,started_utc,result,reason,elapsed_s,shelf_collision_count,obstacle_collision_count,path_length_m,first_path_length_m\ntrial-easy-1,2026-01-01T00:00:00Z,reached,n/a,20.0,1,2,12.0,10.0\n' > $out/summary.csv
 """)
     path.chmod(0o755)
     return path

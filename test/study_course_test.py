@@ -12,6 +12,7 @@ import pytest
 from small_study import Driver, begin, exclusion, frozen, rehearsed, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
 from navvi_cli import workspace
 from navvi_cli.commands import study as command
+from navvi_cli.say import fail
 from navvi_study import actions, export, journal, measures, overview, runner, session, study, table
 from navvi_study.analysis import Analysis
 from navvi_study.errors import StudyError
@@ -186,6 +187,16 @@ def test_parameters_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_pa
     (tmp_path / "small.yaml").write_text((tmp_path / "small.yaml").read_text().replace(good.replace(old, new), good))
     actions.freeze(args)
     assert study.Study.of(args.plan).progress().freezes
+
+
+def test_parameters_that_cannot_be_checked_as_a_build_failed_are_named(tmp_path, monkeypatch):
+    monkeypatch.setattr(workspace, "is_current", lambda *programs: False)
+    monkeypatch.setattr(workspace, "build", lambda *targets: fail(None))
+    for name, given in ("tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name), ("accept", command._accept):
+        monkeypatch.setitem(actions.TOOLS, name, given)
+    plan = small(tmp_path, ("touch: false", "touch: false, parameters: {feedback/lead: words}"))
+    with pytest.raises(StudyError, match="small.yaml: condition plain: its parameters cannot be checked, as the build failed"):
+        actions.freeze(words(study.Study(plan), reason=None))
 
 
 def test_a_detour_is_of_trials_that_arrived_and_a_plan_that_takes_it_first_says_so(tmp_path):

@@ -2,6 +2,7 @@
 import errno
 import fcntl
 import functools
+import html
 import itertools
 import multiprocessing
 import os
@@ -11,12 +12,12 @@ import sys
 import time
 
 import pytest
+import rosbag
 
-from small_study import begin, bench, rehearsed, rest, small, words, work  # noqa: F401
-from navvi_cli.commands import study as command
-from navvi_study import actions, export, journal, runner, session, study, table
+from small_study import Driver, begin, bench, exclusion, frozen, rehearsed, rest, small, trial_of, words, work  # noqa: F401
+from navvi_study import actions, journal, report, runner, session, study, table, verify
 from navvi_study.errors import StudyError
-from sessions import eventually
+from sessions import ROOT, eventually
 
 
 def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
@@ -49,7 +50,8 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
         monkeypatch.setitem(actions.TOOLS, name, lambda *given, path=path: path)
     rest(work())
     kept, whole = work.study, work.study.journal.path.read_bytes()
-    args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False)
+    args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False,
+                 accept_loss=None)
     assert actions.verify(args) == 0
     kept.journal.path.write_bytes(b"".join(SHORTER[how](whole.splitlines(keepends=True))))
     if not with_last:
@@ -58,7 +60,7 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
         with pytest.raises(StudyError) as problem:
             action(args)
-        assert named in str(problem.value) and "restore" in str(problem.value), action
+        assert named in str(problem.value) and "restore" in str(problem.value) and "--accept-loss" in str(problem.value), action
     capsys.readouterr()
     assert actions.verify(args) == 1 and named in capsys.readouterr().out
     actions.stop(args)
@@ -66,6 +68,52 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     assert named in capsys.readouterr().out
     kept.journal.path.write_bytes(whole)
     assert actions.verify(args) == 0
+    with pytest.raises(StudyError, match="nothing to accept"):
+        actions.verify(words(kept, accept_loss="the disk failed"))
+
+
+@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
+def test_a_loss_that_is_accepted_is_named_and_nothing_is_driven_or_asked_again(work, monkeypatch, capsys, with_last, how):
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
+    rest(work("aborted"))
+    kept = work.study
+    rows, answers, lines = table.trials(kept, kept.progress()), kept.answers("sub-01"), kept.journal.path.read_bytes().splitlines(keepends=True)
+    kept.journal.path.write_bytes(b"".join(SHORTER[how](lines)))
+    if not with_last:
+        kept.journal.last.unlink()
+    kept = study.Study(kept.plan)
+    lost = [*kept.unrecorded()]
+    assert actions.verify(words(kept, accept_loss="the disk failed")) == 0 and not kept.unrecorded()
+    if not kept.progress().freezes:
+        kept.freeze("test", None)
+    begun = begin(kept)
+    rest(begun)
+    assert begun.runner.driven == [] and kept.answers("sub-01") == answers and table.trials(kept, kept.progress()) == rows
+    named = f'for the reason "the disk failed": {", ".join(lost)}.'
+    capsys.readouterr()
+    assert actions.verify(words(kept, accept_loss=None)) == 0 and named in capsys.readouterr().out
+    assert named in html.unescape(report.page(kept, kept.progress(), rehearsed=False))
+
+
+def test_who_withdraws_is_erased_also_where_the_journal_has_lost_rows(work, monkeypatch, capsys):
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
+    rest(work())
+    kept, args = work.study, words(work.study, participant="sub-01", data="delete", accept_loss=None)
+
+    def cut(rows):
+        kept.journal.path.write_bytes(b"".join(kept.journal.path.read_bytes().splitlines(keepends=True)[:-rows]))
+    cut(2)
+    actions.withdraw(args)
+    assert not kept.home("sub-01").exists() and "withdraw again" in capsys.readouterr().out
+    assert "done sub-01 s1-end" in str(study.Study.of(args.plan).unrecorded()), "the copy of the last row tells of the loss still"
+    study.Study.of(args.plan).accept_loss("the disk failed")
+    args.participant = "sub-02"
+    actions.withdraw(args)
+    cut(1)
+    for action, code in (actions.stop, None), (actions.status, None), (actions.verify, 1):
+        assert action(args) == code
+        capsys.readouterr() if action == actions.stop else None
+    assert "(erased sub-02)" in capsys.readouterr().out
 
 
 def trial_of_first(kept):
@@ -78,13 +126,13 @@ def test_a_freeze_and_a_trial_that_were_killed_lack_no_row(tmp_path, monkeypatch
         with monkeypatch.context() as disk, pytest.raises(KeyboardInterrupt):
             disk.setattr(*((kept.journal, "append") if fails == "append" else (study.os, "replace")), functools.partial(killed, os.replace))
             kept.freeze("test", None)
-        assert study.Study(kept.plan).unrecorded() == []
+        assert study.Study(kept.plan).unrecorded() == {}
     kept.require_frozen()
     with pytest.raises(KeyboardInterrupt):
         begin(kept, "killed").next("sub-01")
     trial_of_first(kept).mkdir()
     kept.journal.last.write_bytes(b"\0" * 99)  # of a power cut
-    assert study.Study(kept.plan).unrecorded() == [] and rest(begin(kept))[0] == "s1-c1-trial-1"
+    assert study.Study(kept.plan).unrecorded() == {} and rest(begin(kept))[0] == "s1-c1-trial-1"
 
 
 def killed(replace, old, *more, **fields):
@@ -147,6 +195,84 @@ def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
         work.study.frozen_file.write_bytes(content)
         with pytest.raises(StudyError, match="restore it from a copy"):
             work.study.require_frozen()
+
+
+@pytest.mark.parametrize("damage", [
+    lambda data: data[:len(data) // 3], lambda data: data[:-1], lambda data: data.replace(b"reached", b"r\xffached"),
+    lambda data: data.replace(b"elapsed_s", b"elapsed_z"), None], ids=["cut", "no end", "bytes", "title", "missing"])
+def test_a_trial_whose_summary_is_damaged_stops_the_report_until_it_is_excluded(work, monkeypatch, damage):
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    rest(work())
+    attempt, trial = trial_of(work.study)
+    path = trial / "summary.csv"
+    path.write_bytes(damage(path.read_bytes())) if damage else path.unlink()
+    args = words(work.study, only="time", blind=False, bids=True)
+    for action in actions.report, actions.table, actions.export:
+        with pytest.raises(StudyError, match=f"{path} .*study exclude {args.plan} sub-01/{attempt.trial} --reason"):
+            action(args)
+    sentences, bad = verify.verify(work.study, work.study.progress(), "true")
+    assert bad == 1 and "files differ: summary.csv" in sentences[0] and "table differs: summary.csv is missing or damaged" in sentences[0]
+    actions.exclude(exclusion(work.study, f"sub-01/{attempt.trial}", "its summary is lost"))
+    rows = table.trials(work.study, work.study.progress())
+    assert [(row["counts"], row["excluded"], "result" in row) for row in rows] == [("no", "its summary is lost", False), ("yes", "n/a", True)]
+    assert report.page(work.study, work.study.progress(), rehearsed=False)
+
+
+def test_a_trial_whose_summary_was_cut_and_cannot_be_made_again_was_driven_and_is_replaced(work):
+    class Cut(Driver):
+        def trial(self, participant, step, attempt, folder, lock):
+            super().trial(participant, step, attempt, folder, lock)
+            if len(self.driven) == 1:
+                path = folder / "trial-1/summary.csv"
+                path.write_bytes(path.read_bytes()[:9])
+                raise KeyboardInterrupt
+    begun = begin(work.study, driver=Cut)
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    rest(begun)
+    assert begun.runner.driven[:2] == [("easy", 1), ("easy", 11)], "its world was met"
+    rows = [(row["trial"], row["counts"], row["excluded"]) for row in table.trials(work.study, work.study.progress())]
+    assert rows[:2] == [("trial-1", "no", "the trial broke off"), ("trial-2", "yes", "n/a")]
+
+
+def test_the_bag_of_a_trial_that_a_power_cut_ended_is_no_difference_once_it_is_repaired(tmp_path):
+    programs = ROOT / "navvi_ws/devel/lib/navvi_study"
+
+    class Cut(runner.LoopRunner):
+        """The power fails a moment before the trial's end; the disk has all until then."""
+        def trial(self, *given):
+            super().trial(*given)
+            trial, = given[3].glob("trial-*")
+            lines = (trial / "journal.csv").read_bytes().splitlines(keepends=True)
+            (trial / "journal.csv").write_bytes(b"".join(lines[:next(at for at, line in enumerate(lines) if b",TRIAL_END," in line)]))
+            with rosbag.Bag(str(trial / "trial.bag")) as bag, rosbag.Bag(str(trial / verify.OPEN), "w") as other:
+                for topic, message, stamp in itertools.takewhile(lambda one: getattr(one[1], "type", "") != "TRIAL_END", bag.read_messages()):
+                    other.write(topic, message, stamp)
+            (trial / "trial.bag").unlink()
+            (trial / "summary.csv").unlink()
+            raise KeyboardInterrupt
+
+        def close(self, folder):
+            runner.LiveRunner.close(self, folder)
+    kept = frozen(tmp_path, ("limit: 60", "limit: 2"))
+    driver = Cut(kept, programs / "trials_bench", "test")
+    driver.close_trials = programs / "close_trials"
+    begun = session.Session(kept, driver, say=lambda line: None, wait=False)
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    begun.recover("sub-01")
+    _, trial = trial_of(kept)
+
+    def verified():
+        return verify.verify(kept, kept.progress(), programs / "count_trial")
+    (sentence,), bad = verified()
+    assert bad == 1 and "files equal, journal equal, bag was not closed" in sentence
+    (trial / verify.OPEN).rename(trial / "trial.bag")
+    (sentence,), bad = verified()
+    assert bad == 0 and "files equal, journal equal, bag no end, as the trial's record broke off, table equal." in sentence
+    (trial / "trial.bag").unlink()
+    (sentence,), bad = verified()
+    assert bad == 1 and f"files differ: {verify.OPEN}," in sentence
 
 
 def _write_for_ever(path):

@@ -229,18 +229,25 @@ def test_an_unblinding_before_all_are_through_has_its_reason_and_its_trials_in_t
     for name in "draw", "version":
         monkeypatch.setitem(actions.TOOLS, name, lambda *words: "test")
     monkeypatch.setattr(actions, "_figures", lambda: [])
-    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nblind: true"))
+    practice = "practice: {worlds: {world: training, seeds: 1..2}, collisions_at_most: 3}"
+    kept = frozen(tmp_path, ("limit: 60", f"limit: 60\nblind: true\n{practice}"))
     args = words(kept, only=None, blind=False, reason=None)
     rest(begin(kept))
+    begun = begin(kept, "reached", "killed")
+    begun.next("sub-02")
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-02")
+    write_summary(kept.attempt_folder("sub-02", "s1-c1-trial-1", 1) / "trial-9")  # of a session that goes on meanwhile
     with pytest.raises(StudyError, match="not all participants are through, .*--reason"):
         actions.unblind(args)
     assert kept.concealed and not kept.progress().analyses
     args.reason = "the board asked"
     actions.unblind(args)
     rest(begin(kept), "sub-02")
+    begin(kept).next("sub-03")  # practice
     actions.report(args)
     text = Page((kept.folder / "report.html").read_text()).text
-    assert 'not all participants were through, for the reason "the board asked"; trials after that: 2.' in text
+    assert 'not all participants were through, for the reason "the board asked"; trials after that: 1.' in text
 
 
 def test_the_same_study_gives_the_same_report(reported):

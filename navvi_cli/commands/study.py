@@ -44,7 +44,7 @@ def _accept(parameters):
         enter()
         check_parameters(words)
     except Failure as problem:
-        raise StudyError(problem.sentence) from None
+        raise StudyError(problem.sentence or "its parameters cannot be checked, as the build failed.") from None
 
 
 def _draw(world, words, path, driven=()):

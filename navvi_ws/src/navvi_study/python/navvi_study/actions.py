@@ -29,7 +29,7 @@ def opened(args):
     """The study. Raises StudyError where its journal has lost rows."""
     study = _opened(args)
     if lost := study.unrecorded():
-        raise StudyError("\n  ".join(lost))
+        raise StudyError("\n  ".join([*lost.values(), f"Where there is no copy: ./navvi study verify {args.plan} --accept-loss TEXT"]))
     return study
 
 
@@ -163,7 +163,7 @@ def status(args):
     """
     from . import overview
     study = _opened(args)
-    print("\n".join([*overview.status(study, study.progress()), *study.unrecorded()]))
+    print("\n".join([*overview.status(study, study.progress()), *study.unrecorded().values()]))
 
 
 @action(PLAN, argument("what", metavar="TRIAL", help="a trial by its name, such as sub-03/trial-20260101T120000Z, or the code of a participant."),
@@ -205,7 +205,7 @@ def withdraw(args):
     Exit codes
     0: written. 2: not planned, or withdrawn before.
     """
-    study = opened(args)
+    study = (_opened if args.data == "delete" else opened)(args)
     person = study.progress().person(args.participant)
     if person.withdrawn == "delete" or person.withdrawn == args.data:
         raise StudyError(f"{person.name} has withdrawn already.")
@@ -213,6 +213,8 @@ def withdraw(args):
         study.journal.append("withdraw", participant=person.name, data=args.data)
     study.finish_erasing()
     print(f"navvi: {person.name} has withdrawn; what was recorded is {'deleted' if args.data == 'delete' else 'kept'}.")
+    if study.unrecorded():
+        print("navvi: the journal has lost rows; withdraw again once it is restored from a copy.")
 
 
 @action(PLAN)
@@ -229,7 +231,7 @@ def table(args):
         print(f"navvi: written: {path}")
 
 
-@action(PLAN)
+@action(PLAN, argument("--accept-loss", metavar="TEXT", help="why the study goes on without the rows that its journal has lost."))
 def verify(args):
     """Count each trial's summary again, from its journal and from its bag.
 
@@ -237,15 +239,23 @@ def verify(args):
     the study's journal, and whether journal, bag and the row of trials.csv are equal;
     a line a participant: how many of the notes and answers are read.
 
+    Where the journal has lost rows, nothing goes on until it is restored from a
+    copy, or --accept-loss writes the reason. Then "study next" takes up trials and
+    answers that lack their rows; what was excluded must be excluded again. Report
+    and verify name the loss.
+
     Exit codes
     0: all are equal, and none is lost. 1: some differ, or are lost. 2: a wrong plan, or a damaged record.
     """
     from . import overview, verify
     study = _opened(args)
+    if args.accept_loss is not None:
+        study.accept_loss(_reason(args.accept_loss))
     sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
     lines, counts, lost = verify.notes_and_answers(study, study.progress())
     unrecorded = study.unrecorded()
-    print("\n".join([*sentences, *lines, *unrecorded, f"{overview.counted(len(sentences), 'trial')}, {bad} differ.",
+    lines += [*overview.losses(study.progress()), *unrecorded.values()]
+    print("\n".join([*sentences, *lines, f"{overview.counted(len(sentences), 'trial')}, {bad} differ.",
                      f"{overview.counted(counts['notes'], 'note')} and {overview.counted(counts['answers'], 'answer')}, {lost} lost."]))
     return 1 if bad or lost or unrecorded else 0
 

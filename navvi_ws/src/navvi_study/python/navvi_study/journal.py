@@ -18,6 +18,7 @@ from pathlib import Path
 from .errors import StudyError
 
 BEGIN = "0" * 64  # before the first row
+AFTER_LOSS = ("loss", "withdraw", "erased")  # rows that are written though others were lost: a person's data can be deleted at any time
 
 
 class Journal:
@@ -36,8 +37,9 @@ class Journal:
         fields = {name: plain(value) if isinstance(value, str) else value for name, value in fields.items()}
         with self._locked() as file:
             rows = self._read(file)
-            if lost := self._lost(rows):
-                raise StudyError(lost)
+            lost = self._lost(rows)
+            if lost and kind not in AFTER_LOSS:
+                raise StudyError(self.lacks(lost))
             row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": getpass.getuser(),
                    "type": kind, **fields, "before": rows[-1]["hash"] if rows else BEGIN}
             row["hash"] = hash_of(row)
@@ -45,20 +47,24 @@ class Journal:
                 write_whole(file, (json.dumps(row, ensure_ascii=False) + "\n").encode(), self._good)
             except OSError as problem:
                 raise StudyError(f"{self.path} cannot be written: {problem.strerror}. Nothing is begun; mend that and try again.") from None
-            with contextlib.suppress(OSError):  # the row is safe; a copy that is missing or torn tells of no loss
-                self.last.write_text(json.dumps(row) + "\n")
+            if not lost or kind == "loss":  # else the copy goes on to tell of the loss
+                with contextlib.suppress(OSError):  # the row is safe; a copy that is missing or torn tells of no loss
+                    self.last.write_text(json.dumps(row) + "\n")
             return row
 
     def lost(self):
-        """A sentence where rows at the end, or all, were lost; empty otherwise."""
+        """The last row that was written, where it was lost, alone or with others; empty otherwise."""
         with self._locked() as file:
             return self._lost(self._read(file))
+
+    def lacks(self, row):
+        return f"{self.path} lacks {row}, which was written; restore it from a copy."
 
     def _lost(self, rows):
         for last in read_lines(self.last, {"seq": int, "type": str, "hash": str})[0]:
             if last["hash"] not in [row["hash"] for row in rows[last["seq"] - 1:last["seq"]]]:
                 what = " ".join(str(last[key]) for key in ("type", "participant", "step") if key in last)
-                return f"{self.path} lacks row {last['seq']} ({what}), which was written; restore it from a copy."
+                return f"row {last['seq']} ({what})"
         return ""
 
     @contextlib.contextmanager

@@ -89,5 +89,11 @@ def status(study, progress):
     return lines
 
 
+def losses(progress):
+    """A sentence for each loss of rows that was accepted."""
+    return [f"The journal lost rows, accepted on {row['utc'][:10]} for the reason \"{row['reason']}\": {', '.join(row['lost'])}."
+            for row in progress.losses]
+
+
 def counted(number, noun):
     return f"{number} {noun}{'' if number == 1 else 's'}"

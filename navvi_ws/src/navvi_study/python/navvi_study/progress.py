@@ -12,6 +12,7 @@ class Attempt:
     number: int  # from 1
     world: str
     seed: int
+    seq: int = 0  # of the journal's row with which it began
     ended: bool = False
     trial: str = ""  # its folder's name; empty where no trial began
     result: str = ""  # empty until it has ended
@@ -66,10 +67,9 @@ class Progress:
     def __init__(self, plan, rows):
         self.plan = plan
         self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
-        self.freezes, self.analyses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis"))
-        self.unblinded = sum(row["type"] == "end" and bool(row["trial"]) for one in self.analyses for row in rows[one["seq"]:])  # trials
+        self.freezes, self.analyses, self.losses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis", "loss"))
         for row in rows:
-            if row["type"] not in ("freeze", "analysis"):
+            if row["type"] not in ("freeze", "analysis", "loss"):
                 getattr(self, "_" + row["type"])(row)
 
     def person(self, name):
@@ -113,7 +113,7 @@ class Progress:
 
     def _begin(self, row):
         self.people[row["participant"]].attempts.append(Attempt(
-            row["step"], row["attempt"], row["world"], row["seed"], replaces=row["replaces"]))
+            row["step"], row["attempt"], row["world"], row["seed"], row["seq"], replaces=row["replaces"]))
 
     def _end(self, row):
         attempt = self._attempt(row)

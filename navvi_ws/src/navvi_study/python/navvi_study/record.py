@@ -1,15 +1,19 @@
 """One trial's own record, as trial_node left it: doc/record.md defines its rows."""
 import ast
 import bisect
+import csv
 import re
 import struct
 from dataclasses import dataclass
 from urllib.parse import unquote
 
+from .errors import StudyError
 from .journal import lines_of, rows_of
 from .measures import number
 
 FORMATS = {"<f8": "d", "<f4": "f", "<u4": "I"}  # of NumPy's types; all else are texts
+RESULTS = ("reached", "timeout", "refused", "aborted", "invalid")
+TOLD = ("reason", "elapsed_s", "shelf_collision_count", "obstacle_collision_count")  # columns of each summary, besides its result
 
 
 @dataclass(frozen=True)
@@ -75,6 +79,23 @@ class Record:
     def events(self):
         """Rows of events.csv, by column; none where there is no such file."""
         return rows_of(self.folder / "events.csv")
+
+
+def summary_of(folder):
+    """The row of a trial's summary.csv by column. Raises StudyError where it is missing, cut off or damaged, as parse_summary() of C++ judges it."""
+    path = folder / "summary.csv"
+    try:
+        text = path.read_bytes().decode(errors="replace")
+        names, cells = csv.reader(text[:-1].split("\n"), strict=True)
+        row = dict(zip(names, cells, strict=True))
+        if not text.endswith("\n") or row["result"] not in RESULTS or not row.keys() >= {*TOLD}:
+            raise ValueError
+        return row
+    except OSError as problem:
+        raise StudyError(f"{path} cannot be read: {problem.strerror}; the folder of a trial that has ended is allowed.") from None
+    except (ValueError, KeyError, csv.Error):
+        raise StudyError(f"{path} is damaged; allowed is a line of titles and a line of as many cells, as a trial writes them. "
+                         "Restore it from a copy.") from None
 
 
 def _track(data):

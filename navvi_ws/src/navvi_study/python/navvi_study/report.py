@@ -63,9 +63,10 @@ def opening(progress):
     if progress.plan.order == "drawn":
         drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 is in the journal since then." if progress.over else
                  " Orders are drawn by a seed that is printed here once nobody is left to begin.")
+    begun = [attempt.seq for *_, attempt in driven(progress, "trial")]
     blind = "".join(f" Conditions were letters until {row['utc'][:10]}, when the blinded report had the SHA-256 {row['report']}; "
                     + (f"not all participants were through, for the reason \"{row['reason']}\"; " if row.get("reason") else "")
-                    + f"trials after that: {progress.unblinded}." for row in progress.analyses)
+                    + f"trials after that: {sum(seq > row['seq'] for seq in begun)}." for row in progress.analyses)
     return f"The plan was frozen on {frozen['utc'][:10]} as {frozen['plan'][:12]}, with NavVI {versions}.{drawn}{blind}"
 
 
@@ -312,6 +313,7 @@ def quality(study, progress):
     return [["trials", len(rows)], ["messages missed", shown(total("missed_messages"))], ["safe stops", shown(total("safe_stop_count"))],
             ["bags", ", ".join(f"{state} {count}" for state, count in bags.items()) or "none"],
             ["versions of NavVI", ", ".join(f"{version} {count}" for version, count in versions.items()) or "none"],
+            ["rows that the journal has lost", " ".join(overview.losses(progress)) or "none"],
             ["lines of notes and answers that cannot be read", sum(len(study.unread(name)) for name in progress.people)],
             ["interventions", shown(total("interventions"))], ["marks and notes", shown(total("marks"))],
             ["practice without its criterion", f"{sum(not row['mastered'] for row in practice)} of {len(practice)}"]]

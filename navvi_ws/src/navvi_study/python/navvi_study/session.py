@@ -3,9 +3,10 @@ from .errors import StudyError
 from .journal import sum_of
 from .measures import number
 from .plan import BROKEN_OFF
-from .study import read_summary
+from .record import summary_of
 
 WHOLE = ("reached", "timeout")  # results of a leg after which a job goes on
+DAMAGED = {"result": "invalid", "reason": "summary_damaged", "elapsed_s": "n/a"}  # in place of a summary
 
 
 class Session:
@@ -49,7 +50,7 @@ class Session:
         """Writes what came of an attempt. Returns whether a trial began."""
         folder = self.study.attempt_folder(name, attempt.step, attempt.number)
         trials, places = sorted(path for path in folder.glob("trial-*") if (path / "summary.csv").is_file()), self.study.plan.places(attempt)
-        legs = {path: row for path in (trials if places else trials[-1:]) if (row := read_summary(path)).get("started_utc", "n/a") != "n/a"}
+        legs = {path: row for path in (trials if places else trials[-1:]) if (row := _summary_of(path)).get("started_utc") != "n/a"}
         rows = [*legs.values()]
         if 0 < len(rows) < len(places) and rows[-1]["result"] in WHOLE:  # broken off between two places
             rows.append({**rows[-1], "result": "aborted", "reason": "n/a"})
@@ -92,6 +93,14 @@ class Session:
         """The step is over. Returns True."""
         self.study.journal.append("done", participant=name, step=step.name, **fields)
         return True
+
+
+def _summary_of(folder):
+    """A trial whose summary is damaged, and could not be made again from its journal, was driven all the same."""
+    try:
+        return summary_of(folder)
+    except StudyError:
+        return DAMAGED
 
 
 def result_of(rows):

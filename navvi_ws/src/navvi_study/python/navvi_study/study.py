@@ -15,9 +15,10 @@ from pathlib import Path
 
 from . import plan_file
 from .errors import StudyError
-from .journal import Journal, append_line, lines_of, read_lines, rows_of, sync_folder, utc_now
+from .journal import Journal, append_line, lines_of, read_lines, sync_folder, utc_now
 from .plan import Group
 from .progress import Progress
+from .record import summary_of
 
 # What each line of a participant's files holds at least.
 FIELDS = {
@@ -47,16 +48,27 @@ class Study:
         return found
 
     def unrecorded(self):
-        """A sentence for each loss of rows that the journal's copy of its last row shows, and for each record on the disk without its row."""
+        """A sentence by name for the last row, where the journal has lost it, and for each record on the disk without its row, unless that was
+        accepted."""
         if not self.folder.exists():
-            return []
-        records = {path: frozen["hash"] for path in sorted(self.folder.glob("frozen*.json")) if (frozen := _read_frozen(path))}
-        records.update({path: path for name in self.plan.participants for path in sorted(self.home(name).glob("*-a[0-9]*")) if path.is_dir()})
+            return {}
+        frozen = {path: plan["hash"] for path in sorted(self.folder.glob("frozen*.json")) if (plan := _read_frozen(path))}
+        attempts = [path for name in self.plan.participants for path in sorted(self.home(name).glob("*-a[0-9]*")) if path.is_dir()]
         progress = self.progress()  # after the files, to each of which there was a row before
-        rows = {row["plan"] for row in progress.freezes} | {
-            self.attempt_folder(name, attempt.step, attempt.number) for name, person in progress.people.items() for attempt in person.attempts}
-        return list(filter(None, [self.journal.lost()])) + [
-            f"{path} has no row in {self.journal.path}, which has lost rows; restore the journal from a copy." for path, key in records.items() if key not in rows]
+        hashes = {row["plan"] for row in progress.freezes}
+        begun = {self.attempt_folder(name, attempt.step, attempt.number) for name, person in progress.people.items() for attempt in person.attempts}
+        paths = [path for path, plan in frozen.items() if plan not in hashes] + [path for path in attempts if path not in begun]
+        accepted = {self.folder / name for row in progress.losses for name in row["lost"]}
+        return {**({row: self.journal.lacks(row)} if (row := self.journal.lost()) else {}), **{
+            str(path.relative_to(self.folder)): f"{path} has no row in {self.journal.path}, which has lost rows; restore the journal from a copy."
+            for path in paths if path not in accepted}}
+
+    def accept_loss(self, reason):
+        """The study goes on without the rows that its journal has lost."""
+        lost = self.unrecorded()
+        if not lost:
+            raise StudyError(f"{self.journal.path} has lost no row; there is nothing to accept.")
+        self.journal.append("loss", reason=reason, lost=[*lost])
 
     def _allocation(self):
         """What the journal keeps of the seed, by which it can be verified once it is printed."""
@@ -225,11 +237,17 @@ class Study:
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
 
-    def summary(self, participant, attempt, trial=""):
-        """The summary of an attempt's trial, or of that leg of it; empty where none was written."""
-        if not attempt.trial:
-            return {}
-        return read_summary(self.attempt_folder(participant, attempt.step, attempt.number) / (trial or attempt.trial))
+    def summary(self, participant, attempt, trial="", strict=True):
+        """The summary of an attempt's trial, or of that leg of it. Raises StudyError where it is damaged; not so, and it is empty, where the
+        trial is excluded, or without `strict`."""
+        trial = trial or attempt.trial
+        try:
+            return summary_of(self.attempt_folder(participant, attempt.step, attempt.number) / trial) if trial else {}
+        except StudyError as problem:
+            if not strict or attempt.excluded and not attempt.dropped_out:
+                return {}
+            raise StudyError(f"{problem} Or go on without the trial: "
+                             f"./navvi study exclude {self.plan.file} {participant}/{trial} --reason TEXT") from None
 
     def finish_erasing(self):
         """What was to be deleted is deleted, also after a crash amid that."""
@@ -254,11 +272,6 @@ def _read_frozen(path):
     with contextlib.suppress(OSError, ValueError, LookupError, TypeError):
         values = json.loads(path.read_bytes())
         return {key: values[key] for key in ("hash", "plan")}
-
-
-def read_summary(folder):
-    """Empty where none was written, or where it was cut off."""
-    return next((row for row in rows_of(folder / "summary.csv") if None not in (*row, *row.values())), {})
 
 
 def write_safely(path, content):

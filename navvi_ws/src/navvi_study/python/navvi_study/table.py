@@ -43,8 +43,9 @@ def figures(count_trial):
     return json.loads(subprocess.run([str(count_trial), "figures"], capture_output=True, text=True, check=True).stdout)
 
 
-def trials(study, progress):
-    """Rows by column name; every attempt in which a trial began, of those who have not withdrawn their data."""
+def trials(study, progress, strict=True):
+    """Rows by column name; every attempt in which a trial began, of those who have not withdrawn their data.
+    \\param strict  as of Study.summary()"""
     rows = []
     for person in progress.people.values():
         notes, described_by = study.notes(person.name), about(study, person)
@@ -61,7 +62,8 @@ def trials(study, progress):
                      "interventions": len([note for note in mine if note["type"] == "intervention"])}
             for at, trial in enumerate(attempt.legs):
                 row = whole if at == 0 else {**whole, "marks": 0, "interventions": 0}  # of all legs, in the first
-                row = {**row, **{name: cell for name, cell in study.summary(person.name, attempt, trial).items() if name not in NOT_OURS}, "trial": trial}
+                summary = study.summary(person.name, attempt, trial, strict)
+                row = {**row, **{name: cell for name, cell in summary.items() if name not in NOT_OURS}, "trial": trial}
                 if places:
                     row.update(leg=at + 1, place=places[at][2], do=places[at][3])
                 rows.append({name: str(cell) for name, cell in row.items()})

@@ -3,17 +3,19 @@ import subprocess
 
 from . import table
 from .journal import sum_of
+from .record import Record
 from .study import FIELDS
 
 EQUAL = "equal"
 OPEN = "trial.bag.active"  # what a power cut leaves of a bag
+RECOVERED = ("ended_without_a_word", "journal_damaged")  # reasons of a TRIAL_END that close_trials wrote
 
 
 def verify(study, progress, count_trial):
     """\\param count_trial  the program that counts a trial's summary again
     Returns a sentence a trial, and how many trials do not agree."""
     sentences, bad = [], 0
-    for row in table.trials(study, progress):
+    for row in table.trials(study, progress, strict=False):
         attempt = table.attempt_of(progress, row)
         folder = study.attempt_folder(row["participant"], attempt.step, attempt.number) / row["trial"]
         found = {"files": _files(folder, attempt.legs[row["trial"]]), "journal": _journal(count_trial, folder), "bag": _bag(count_trial, folder, row), "table": _table(study, row, attempt)}
@@ -41,7 +43,8 @@ def notes_and_answers(study, progress):
 
 def _files(folder, sums):
     """They are as they were when the trial ended."""
-    wrong = [name for name, known in sums.items() if name != OPEN and sum_of(folder / name) != known]  # that is to become a bag
+    repaired = [OPEN] if (folder / "trial.bag").is_file() else []
+    wrong = [name for name, known in sums.items() if name not in repaired and sum_of(folder / name) != known]
     return "differ: " + ", ".join(wrong) if wrong else EQUAL if sums else "no sums"
 
 
@@ -59,12 +62,17 @@ def _bag(program, folder, row):
         recorded = row.get("bag", "n/a")
         return "is missing" if recorded == "ok" else "no bag" if recorded in ("n/a", "none") else f"no whole bag, recorded as {recorded}"
     result = subprocess.run([str(program), "bag", str(folder)], capture_output=True, errors="replace", check=False)
-    return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[:3])
+    said, end = (result.stderr or result.stdout).strip(), Record(folder).first("TRIAL_END")
+    if "the bag does not hold the trial's end" in said and end and end.fields.get("reason") in RECOVERED:
+        return "no end, as the trial's record broke off"
+    return EQUAL if result.returncode == 0 else "differs: " + "; ".join(said.splitlines()[:3])
 
 
 def _table(study, row, attempt):
     """What stands in trials.csv now is what the summary holds."""
-    summary = study.summary(row["participant"], attempt, row["trial"])
+    summary = study.summary(row["participant"], attempt, row["trial"], strict=False)
+    if not summary:
+        return "differs: summary.csv is missing or damaged"
     wrong = [name for name, cell in summary.items() if name in row and name not in table.NOT_OURS and row[name] != cell]
     wrong += [name for name in ("condition", "group", "phase") if summary.get(name, "n/a") not in ("n/a", row[name])]
     return EQUAL if not wrong else "differs in " + ", ".join(wrong)

@@ -103,7 +103,8 @@ def compared(plan, driven):
                          f"movers {sum(float(row['mover_proximity_count']) for row in rows):.0f}, time {sets[name]['times']:.1f}.")
     alike = True
     for what in ("ways", "turns", "times"):
-        least, most = min(sets, key=lambda name: sets[name][what]), max(reversed(sets), key=lambda name: sets[name][what])  # two, also where all are alike
+        ranked = sorted(sets, key=lambda name: sets[name][what])
+        least, most = ranked[0], ranked[-1]
         low, high = sets[least][what], sets[most][what]
         good = high <= LIKE * low or (what == "turns" and high - low <= FEW)
         alike = alike and good

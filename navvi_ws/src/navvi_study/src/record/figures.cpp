@@ -487,7 +487,8 @@ std::optional<Summary> parse_summary(const std::string& text) {
   if (!names || !cells || names->size() != cells->size()) return std::nullopt;
   Summary summary;
   for (std::size_t i = 0; i < names->size(); ++i) summary.emplace_back((*names)[i], (*cells)[i]);
-  return summary_csv(summary) == text ? std::optional(summary) : std::nullopt;
+  const bool whole = summary_csv(summary) == text && !cell_of(summary, "result").empty();
+  return whole ? std::optional(summary) : std::nullopt;
 }
 
 std::string cell_of(const Summary& summary, const std::string& name) {

@@ -51,7 +51,7 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::vector<std::string> reported_columns();
 
 [[nodiscard]] std::string summary_csv(const Summary& summary);
-/// nullopt for a text that summary_csv() does not write.
+/// nullopt for a text that summary_csv() does not write, and for one without a result.
 [[nodiscard]] std::optional<Summary> parse_summary(const std::string& text);
 /// Empty where there is no such column.
 [[nodiscard]] std::string cell_of(const Summary& summary, const std::string& name);

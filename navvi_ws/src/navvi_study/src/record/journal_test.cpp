@@ -291,6 +291,23 @@ TEST_F(Recovering, calls_a_trial_with_damage_behind_its_end_invalid_and_one_with
   EXPECT_EQ(bytes(), header);
 }
 
+TEST_F(Recovering, sums_up_again_what_has_no_whole_summary) {
+  const fs::path trial = path_ / "trial", summary = trial / "summary.csv";
+  fs::create_directory(trial);
+  ASSERT_FALSE(navvi_files::write_atomically(trial / "journal.csv", finished()));
+  EXPECT_EQ(recover_trials(path_).size(), 1u);
+  const std::string whole = navvi_files::read_file(summary).value();
+  std::string retitled = whole;
+  retitled[retitled.find("result")] = 'X';
+  for (const std::string& damaged : {std::string(), whole.substr(0, whole.size() / 2),
+                                     whole.substr(0, whole.size() - 1), retitled}) {
+    ASSERT_FALSE(navvi_files::write_atomically(summary, damaged));
+    EXPECT_EQ(recover_trials(path_).size(), 1u);
+    EXPECT_EQ(navvi_files::read_file(summary).value(), whole);
+  }
+  EXPECT_TRUE(recover_trials(path_).empty());
+}
+
 TEST_F(Recovering, calls_an_open_trial_what_its_summary_does) {
   const std::string whole = finished();
   put(whole.substr(0, whole.find("trial-1,3,")));

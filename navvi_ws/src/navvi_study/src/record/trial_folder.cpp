@@ -63,16 +63,16 @@ navvi_files::Problem write_results(const fs::path& folder, const Trial& trial,
 
 namespace {
 
-/// Whether the summary is there, and has the result of the trial and the state of its bag.
+/// Whether the summary is whole, and has the result of the trial and the state of its bag.
 bool is_summed_up(const fs::path& folder, const Trial& trial) {
   const auto text = navvi_files::read_file(folder / "summary.csv");
-  const Summary summary = parse_summary(text.value_or("")).value_or(Summary());
+  const auto summary = parse_summary(text.value_or(""));
   const auto has = [&](const std::string& type, const std::string& field, const char* column) {
     const Row* row = trial.last(type);
-    const std::string cell = cell_of(summary, column);
+    const std::string cell = cell_of(*summary, column);
     return row == nullptr || cell.empty() || cell == "invalid" || cell == row->fields.get(field);
   };
-  return text && has("TRIAL_END", "result", "result") && has("BAG_CLOSED", "state", "bag");
+  return summary && has("TRIAL_END", "result", "result") && has("BAG_CLOSED", "state", "bag");
 }
 
 }  // namespace

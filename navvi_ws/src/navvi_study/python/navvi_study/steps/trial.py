@@ -25,8 +25,11 @@ class Driven(Step):
         replaces = next((attempt.trial for attempt in reversed(before) if attempt.trial), "")
         number = len(before) + 1
         study.journal.append("begin", participant=person.name, step=self.name, attempt=number, world=world.world, seed=world.seed, replaces=replaces)
-        attempt = study.progress().person(person.name).open
-        session.runner.trial(person.name, self, attempt, study.attempt_folder(person.name, self.name, number), lock)
+        attempt, folder = study.progress().person(person.name).open, study.attempt_folder(person.name, self.name, number)
+        if folder.exists():  # it was driven, and the journal has lost its rows
+            session.runner.close(folder)
+        else:
+            session.runner.trial(person.name, self, attempt, folder, lock)
         return session.end(person.name, attempt)
 
 
