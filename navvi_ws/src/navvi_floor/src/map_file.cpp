@@ -58,7 +58,7 @@ Header read_header(const std::string& path, const std::string& bytes) {
   while (std::getline(stream, line)) {
     if (line.empty() || line[0] == '#') continue;
     if (line == "data") {
-      out.length = static_cast<std::size_t>(stream.tellg());
+      out.length = stream.eof() ? bytes.size() : static_cast<std::size_t>(stream.tellg());
       return out;
     }
     const std::size_t space = line.find(' ');

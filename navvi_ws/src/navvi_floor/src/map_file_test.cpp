@@ -67,6 +67,7 @@ TEST_F(MapFile, refuses_a_damaged_map_in_a_sentence_that_names_the_file) {
   const std::string name = path("bad.bt") + ": ";
   EXPECT_EQ(error("nonsense"), name + "the first line is not that of an OctoMap file (.bt or .ot)");
   EXPECT_EQ(error(first + "id OcTree\n"), name + "the header has no line \"data\"");
+  EXPECT_EQ(error(first + "id OcTree\nres 0.1\ndata"), name + "the map is empty");
   EXPECT_EQ(error(first + "id OcTreeStamped\nres 0.1\ndata\nxx"),
             name + "the map is of the kind \"OcTreeStamped\"; OcTree and ColorOcTree are allowed");
   EXPECT_EQ(error(first + "id OcTree\nres 1e-9\ndata\nxx"),

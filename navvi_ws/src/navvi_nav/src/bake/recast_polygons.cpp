@@ -215,7 +215,7 @@ void build_layers(rcCompactHeightfield& field, std::vector<std::uint8_t> open) {
   const auto pieces = map::pieces_of(static_cast<std::size_t>(side), static_cast<std::size_t>(side),
                                      0, [&open](std::size_t cell) { return open[cell] != 0; });
   std::vector<std::uint8_t> amid(open.size(), 0);
-  for (std::size_t i = at(1, 1); i < at(last, last); ++i) {
+  for (std::size_t i = at(1, 1); i < at(last, last - 1); ++i) {
     const std::uint8_t* const above = &open[i + at(0, 1)];
     const std::uint8_t* const below = &open[i - at(0, 1)];
     amid[i] = open[i - 1] & open[i] & open[i + 1] & above[-1] & above[0] & above[1] & below[-1] &
