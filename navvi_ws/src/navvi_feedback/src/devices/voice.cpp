@@ -19,7 +19,8 @@ Sound sound_of(const process::Frame& frame) {
   if (frame.value <= 0) return sound;
   sound.rate = frame.value;
   sound.samples.resize(frame.bytes.size() / sizeof(std::int16_t));
-  std::memcpy(sound.samples.data(), frame.bytes.data(), sound.samples.size() * sizeof(std::int16_t));
+  if (!sound.samples.empty())
+    std::memcpy(sound.samples.data(), frame.bytes.data(), 2 * sound.samples.size());
   return sound;
 }
 
