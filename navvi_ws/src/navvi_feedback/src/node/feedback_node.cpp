@@ -173,7 +173,7 @@ bool await_master() {
 
 void spin(FeedbackNode& node) {
   navvi_config::spin();
-  if (!ros::ok()) return;
+  if (!ros::ok() || navvi_config::name_is_taken()) return;
   node.finish();
   navvi_config::flush();
 }
