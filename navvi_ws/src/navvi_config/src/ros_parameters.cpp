@@ -60,7 +60,7 @@ void allow_files() {
 }
 
 void limit_memory() {
-#ifndef __SANITIZE_ADDRESS__
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   rlimit limit{};
   if (::getrlimit(RLIMIT_DATA, &limit) != 0 || limit.rlim_cur <= kMemory) return;
   limit.rlim_cur = kMemory;
