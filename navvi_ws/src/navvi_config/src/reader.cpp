@@ -13,6 +13,7 @@
 #include <tuple>
 #include <utility>
 
+#include "navvi_config/cited.hpp"
 #include "navvi_files/json.hpp"
 #include "removed_keys.hpp"
 
@@ -27,15 +28,6 @@ std::string to_text(double number) {
     out << std::fixed << std::setprecision(0);
   out << number;
   return out.str();
-}
-
-/// So much of a value or key as tells which one is meant: an error cites no file.
-std::string cited(const std::string& text) {
-  constexpr std::size_t kMost = 60;  // bytes
-  if (text.size() <= kMost) return text;
-  std::size_t end = kMost - 3;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // of UTF-8
-  return text.substr(0, end) + "...";
 }
 
 /// Of the words, the one that is at most two letters, and half of it, off; empty where none is.
@@ -283,6 +275,14 @@ class TableWriter : public Visitor {
 };
 
 }  // namespace
+
+std::string cited(const std::string& text) {
+  constexpr std::size_t kMost = 60;  // bytes
+  if (text.size() <= kMost) return text;
+  std::size_t end = kMost - 3;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // of UTF-8
+  return text.substr(0, end) + "...";
+}
 
 YAML::Node load_yaml(const std::filesystem::path& path) {
   std::error_code error;

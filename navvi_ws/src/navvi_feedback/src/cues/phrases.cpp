@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "navvi_config/cited.hpp"
 #include "navvi_config/reader.hpp"
 
 namespace navvi_feedback::cues {
@@ -132,7 +133,7 @@ class Section {
   [[noreturn]] void fail(const YAML::Node& at, const std::string& key,
                          const std::string& why) const {
     std::ostringstream sentence;
-    sentence << file_ << ", line " << at.Mark().line + 1 << ": " << name_ << "/" << key << " "
+    sentence << file_ << ", line " << at.Mark().line + 1 << ": " << name_ << "/" << navvi_config::cited(key) << " "
              << why << ".";
     throw ConfigError(sentence.str());
   }
@@ -177,7 +178,7 @@ void check_phrase(const Section& section, const std::string& key, const std::str
   try {
     fill_in(text, [&](const std::string& name) {
       if (kPlaceholders.count(name) == 0)
-        section.fail(key, "has the unknown placeholder {" + name.substr(0, kMaxWord) + "}");
+        section.fail(key, "has the unknown placeholder {" + navvi_config::cited(name) + "}");
       used.insert(name);
       return std::string();
     });
@@ -217,7 +218,7 @@ void check_sections(const std::string& name, const YAML::Node& root) {
         std::find(std::begin(kInstead), std::end(kInstead), key) == std::end(kInstead))
       throw ConfigError(
           name + ", line " + std::to_string(item.first.Mark().line + 1) +
-          ": there is no section \"" + key +
+          ": there is no section \"" + navvi_config::cited(key) +
           "\"; there are voice, phrases, again, clock, brief, full, words, picture and lessons.");
 }
 

@@ -266,6 +266,7 @@ TEST(Phrases, refuse_a_file_that_is_missing_or_no_map) {
   EXPECT_NE(refusal("- a\n- b\n"), "");
   EXPECT_NE(refusal("phrases: [1, 2]\n"), "");
   EXPECT_NE(refusal("phrases: {\n"), "");
+  EXPECT_LT(refusal(std::string(900, 'x') + ": {}\n").size(), 300U) << "cites no long key";
 }
 
 TEST(Phrases, stand_under_a_kind_for_all_that_it_may_be_about_but_what_has_one_of_its_own) {
