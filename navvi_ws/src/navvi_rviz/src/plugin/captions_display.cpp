@@ -43,7 +43,7 @@ constexpr double kHurry = 8.0;     // m, around it, in which what moves moves th
 constexpr double kNear = 0.3;      // m, before the camera
 constexpr double kBanner = 0.115;  // of the picture's height: the banner's letters at most
 constexpr double kLeastShare = 0.6;  // of that, where it has no room
-constexpr double kFar = 0.6;       // of the picture's height, from a place to its plate at most
+constexpr double kFar = 0.2;       // of the picture's height, from a place to its plate at most
 constexpr double kArrow = 0.2;     // of the picture's height: the arrow at its edge at most
 constexpr double kLargest = 60.0;  // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
@@ -291,9 +291,12 @@ void CaptionsDisplay::show_beside(const std::string& name, const Eigen::Vector2d
   const Eigen::Vector2d size = size_of(*entry.plate);
   const auto corner = screen::place({place, size, entry.place}, picture_, taken_);
   if (!corner) return;
+  const screen::Rect mine(*corner, *corner + size);
+  // Far from its place, it would seem to name another.
+  if (mine.exteriorDistance(place) > kFar * picture_.y()) return;
   entry.place = *corner - place;
   entry.plate->show(corner->x(), corner->y());
-  taken_.always.emplace_back(*corner, *corner + size);
+  taken_.always.push_back(mine);
 }
 
 void CaptionsDisplay::show_banner(const status::Shown& shown) {
@@ -355,11 +358,8 @@ void CaptionsDisplay::show_labels() {
     if (id == kGoal) seen.pixel = seen.pixel->cwiseMax(all.min()).cwiseMin(all.max());
     if (!all.contains(*seen.pixel)) continue;
     const std::string name = "label" + std::to_string(id);
-    Plate& plate = words(name, label.first, height_, false);
+    words(name, label.first, height_, false);
     show_beside(name, *seen.pixel);
-    const std::optional<Eigen::Vector2d>& corner = plates_.at(name).place;
-    // Far from its place, it would seem to name another.
-    if (corner && (*corner + 0.5 * size_of(plate)).norm() > kFar * picture_.y()) plate.hide();
   }
 }
 
