@@ -43,7 +43,7 @@ constexpr double kHurry = 8.0;     // m, around it, in which what moves moves th
 constexpr double kNear = 0.3;      // m, before the camera
 constexpr double kBanner = 0.115;  // of the picture's height: the banner's letters at most
 constexpr double kLeastShare = 0.6;  // of that, where it has no room
-constexpr double kFar = 0.2;       // of the picture's height, from a place to its plate at most
+constexpr double kFar = 0.3;       // of the picture's height, from a place to its plate at most
 constexpr double kArrow = 0.2;     // of the picture's height: the arrow at its edge at most
 constexpr double kLargest = 60.0;  // px/m, of that view
 constexpr double kLowest = 0.75, kSteepest = 1.4;  // rad, down, of the view from behind
