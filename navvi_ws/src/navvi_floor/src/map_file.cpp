@@ -94,7 +94,8 @@ Picture read_picture(const std::string& path) {
   std::size_t numbers[3] = {};
   stream >> std::setw(3) >> kind;
   for (std::size_t& number : numbers) {
-    while ((stream >> std::ws).peek() == '#') stream.ignore(static_cast<std::streamsize>(bytes.size()), '\n');
+    while ((stream >> std::ws).peek() == '#')
+      stream.ignore(static_cast<std::streamsize>(bytes.size()), '\n');
     stream >> number;
   }
   const auto [width, height, white] = numbers;
