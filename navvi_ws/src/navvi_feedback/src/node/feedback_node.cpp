@@ -6,6 +6,7 @@
 #include <navvi_config/ros_parameters.hpp>
 
 #include "cues/phrases.hpp"
+#include "lessons/questionnaire.hpp"
 #include "navvi_feedback/core/guide.hpp"
 #include "node/beat.hpp"
 #include "node/diagnostics.hpp"
@@ -189,6 +190,8 @@ int main(int argc, char** argv) {
           navvi_config::print_parameters<NodeConfig>(argc, argv, [](const NodeConfig& config) {
             using namespace navvi_feedback;
             const core::Guide would_start(config.feedback, cues::Phrases(config.phrases_file()));
+            if (const std::string& asked = config.feedback->questions; !asked.empty())
+              static_cast<void>(lessons::read_questions(asked));
             return config.person.empty() ? YAML::Node(YAML::NodeType::Map)
                                          : PersonFile::of<PersonConfig>(config.person).load();
           }))
