@@ -62,12 +62,12 @@ LINES = [
     "The trial begins: world busy, seed 3, operator pad. 0 s.",
     "Follow the path, 20 m to go. 0 s.",
     "Said: drive straight, 5 meters. 1 s.",
-    "Felt: hit hard. 4 s.",
+    "Felt: hit hard, on the left. 4 s.",
     "Hit: pallet robot on the left, at 0.4 m/s, contact 1. 4 s.",
     "The robot is stopped: no command came from the stick; let go of the stick. 5 s.",
     "12 m to go, the next corner in 5 m at 2 o'clock. 20 s.",
     "Wait, the way is blocked, forklift, 12 m to go. 21 s.",
-    "Follow the path, 9 m to where the map ends. 25 s.",
+    "The way is free, wait for \"go on\", 9 m to where the map ends. 25 s.",
     "The trial has ended: aborted, stopped by signal. 30 s.",
     "Said: the trial is over. 32 s.",
 ]
@@ -172,6 +172,23 @@ def test_of_much_at_once_the_newest_state_and_what_weighs_most_is_shown_and_the_
         shown.append(pacer.next(now))
         now += 10.0
     assert shown == ["hit 3 lines left out.", "state 4", "cue 3", "cue 4"]
+
+
+def test_no_word_that_keeps_the_person_safe_is_left_out_and_of_the_wheels_the_newest_stands():
+    pacer = watch.Pacer(180)
+    pacer.offer(watch.Line("wheels", 0, "stopped"))
+    for number in range(6):
+        pacer.offer(watch.Line("Said", 1, f"wait {number}"))
+    pacer.offer(watch.Line("wheels", 1, "can be driven"))
+    assert [line.text for line in pacer.waiting] == [*(f"wait {number}" for number in range(6)), "can be driven"]
+
+
+def test_a_pattern_that_is_felt_again_is_told_again_and_of_a_sound_its_side():
+    teller = watch.Teller()
+    halt = Cue(stage=Cue.STARTED, modality=Cue.RUMBLE, kind="halt", left=0.5, right=0.5)
+    tick = Cue(stage=Cue.STARTED, modality=Cue.SOUND, kind="turn", left=0.9, right=0.1)
+    told = [line.text for time, cue in ((1, halt), (1.5, halt), (9, halt), (10, tick)) for line in teller.lines(at(time, cue))]
+    assert told == ["Felt: halt. 0 s.", "Felt: halt. 8 s.", "Played: turn, on the left. 9 s."]
 
 
 @pytest.fixture

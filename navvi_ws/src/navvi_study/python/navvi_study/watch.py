@@ -43,6 +43,8 @@ STOPS = {
 WAITING = {TrialState.PREPARING: "A trial is being prepared", TrialState.CHOOSE_GOAL: "The trial waits for a goal",
            TrialState.READY: "The trial waits until its person presses start"}
 SENSES = {Cue.SPEECH: "Said", Cue.RUMBLE: "Felt"}
+SUPERSEDED = ("state", "distance", "wheels")  # of lines that wait only the newest counts
+AGAIN = 2.0  # s, after which a cue that comes again is told again
 LASTING = ("rumble", "flow")  # what is felt of near things, and what leads, all the time
 
 
@@ -70,7 +72,7 @@ class Teller:
     def __init__(self):
         self.start = None  # s, ROS time
         self.state, self.distance = None, math.inf
-        self.told = {}     # the last text of each kind
+        self.told = {}     # the last text of each kind, and its stamp
         self.last = -math.inf
 
     def lines(self, message):
@@ -81,9 +83,10 @@ class Teller:
         tell = {Guidance: self.guidance, Cue: self.cue, Contact: self.contact, DriveState: self.drive, TrialEvent: self.event,
                 TrialState: self.trial}
         for kind, rank, text in next(tell[kind] for kind in tell if type(message)._type == kind._type)(message, stamp):
-            if self.told.get(kind) == text:
+            before, at = self.told.get(kind, ("", 0.0))
+            if before == text and (type(message)._type != Cue._type or stamp - at < AGAIN):
                 continue
-            self.told[kind] = text
+            self.told[kind] = text, stamp
             self.last = stamp
             yield Line(kind, rank, f"{text}. {max(0.0, stamp - self.start):.0f} s.")
 
@@ -94,10 +97,12 @@ class Teller:
         left = f"{message.goal_distance:.0f} m to {'where the map ends' if short else 'go'}"
         to_go = f", {left}" if shown else ""
         if message.state != self.state:
+            waited = self.state in (Guidance.BLOCKED, Guidance.MAKE_ROOM) and message.state == Guidance.FOLLOWING
             self.state, self.distance = message.state, message.goal_distance
             self.told.pop("distance", None)
             by = f", {plain(message.blocked_by)}" if message.blocked_by else ""
-            yield "state", 1, STATES.get(message.state, f"State {message.state}") + by + to_go
+            text = "The way is free, wait for \"go on\"" if waited else STATES.get(message.state, f"State {message.state}")
+            yield "state", 1, text + by + to_go
         elif shown and stamp - self.last >= self.QUIET and abs(self.distance - message.goal_distance) >= 1.0:
             self.distance = message.goal_distance
             corner = "the goal" if message.waypoint_is_goal else "the next corner"
@@ -109,7 +114,8 @@ class Teller:
             return
         sense = SENSES.get(message.modality, "Played")
         safety = message.priority == Cue.IMPORTANT
-        yield sense, 1 if safety else 2, f"{sense}: {message.text or plain(message.kind)}"
+        side = "" if message.text or message.left == message.right else f", on the {'left' if message.left > message.right else 'right'}"
+        yield sense, 1 if safety else 2, f"{sense}: {message.text or plain(message.kind)}{side}"
 
     def contact(self, message, _):
         yield "contact", 0, (f"Hit: {plain(message.thing_class)} {side_of(message.robot, message.point)}, at {message.speed:.1f} m/s, "
@@ -136,7 +142,8 @@ class Teller:
 
 
 class Pacer:
-    """Keeps lines until they can be read: of state and distance only the newest, of others so many, the weightier first."""
+    """Keeps lines until they can be read: of state, distance and wheels only the newest; of others, but for what keeps the person safe, so many, the weightier
+    first."""
     MOST = 4
 
     def __init__(self, words_per_minute, may_leave_out=True):
@@ -148,11 +155,11 @@ class Pacer:
 
     def offer(self, line):
         if self.most != math.inf:
-            if line.kind in ("state", "distance"):
+            if line.kind in SUPERSEDED:
                 self.waiting = [other for other in self.waiting if other.kind != line.kind]
             if len(self.waiting) >= self.most:
                 least = max(self.waiting, key=lambda other: other.rank)  # the oldest of the least weight
-                if least.rank > 0:
+                if least.rank > 1:
                     self.waiting.remove(least)
                     self.left_out += 1
         self.waiting.append(line)
@@ -163,7 +170,7 @@ class Pacer:
             return None
         line = min(self.waiting, key=lambda other: other.rank) if self.most != math.inf else self.waiting[0]
         self.waiting.remove(line)
-        text = line.text + (f" {self.left_out} lines left out." if self.left_out else "")
+        text = line.text + (f" {self.left_out} line{'s' * (self.left_out > 1)} left out." if self.left_out else "")
         self.left_out = 0
         self.free_at = now + self.reading_time(text)
         return text
