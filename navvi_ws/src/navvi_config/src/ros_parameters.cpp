@@ -19,7 +19,7 @@ namespace {
 constexpr rlim_t kFiles = 256;
 constexpr rlim_t kMemory = rlim_t{4} << 30U;  // bytes
 
-std::atomic<bool> g_name_taken{false};
+std::atomic<bool> g_name_taken{false}, g_asked{false};
 bool g_has_last_messages = false;
 volatile std::sig_atomic_t g_ending = 0;
 
@@ -78,7 +78,9 @@ void ask_for_priority(int niceness) {
 void init_with_last_messages(int& argc, char** argv, const std::string& name) {
   g_has_last_messages = true;
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { end(); });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
+    if (std::signal(signal, [](int) { end(); }) == SIG_IGN && signal == SIGHUP)
+      std::signal(signal, SIG_IGN);  // by nohup
 }
 
 void end() { g_ending = 1; }
@@ -104,12 +106,15 @@ void end_on_request() {
             !g_name_taken.exchange(true))
           ROS_FATAL("Another node has taken the name %s, so this one ends.",
                     ros::this_node::getName().c_str());
+        g_asked = true;
         g_has_last_messages ? end() : ros::requestShutdown();
         answer = ros::xmlrpc::responseInt(1, "", 0);
       });
 }
 
 bool name_is_taken() { return g_name_taken; }
+
+bool ends_alone() { return g_asked; }
 
 YAML::Node parameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue value;

@@ -293,6 +293,7 @@ TEST_P(Ending, leaves_zero_to_the_wheels) {
 INSTANTIATE_TEST_SUITE_P(each, Ending,
                          testing::Values(std::pair{"interrupted", SIGINT},
                                          std::pair{"terminated", SIGTERM},
+                                         std::pair{"hung_up", SIGHUP},
                                          std::pair{"replaced", 0}));
 
 TEST(CommandTransport, is_a_datagram_from_another_machine_alone) {

@@ -40,8 +40,8 @@ void limit_memory();
 /// \param niceness  [-20, -1], of which -20 goes first
 void ask_for_priority(int niceness);
 
-/// ros::init for a node with last messages: Ctrl-C, SIGTERM and a request by XML-RPC end spin(),
-/// where roscpp would close the topics at once.
+/// ros::init for a node with last messages: Ctrl-C, SIGTERM, SIGHUP, SIGQUIT and a request by XML-RPC
+/// end spin(), where roscpp would close the topics at once.
 void init_with_last_messages(int& argc, char** argv, const std::string& name);
 void end();  ///< ends spin()
 [[nodiscard]] bool ending();
@@ -53,6 +53,8 @@ void flush();
 /// node of its name, that is logged as a fatal error, and name_is_taken() from then on.
 void end_on_request();
 [[nodiscard]] bool name_is_taken();
+/// Whether it was asked to end, or its name taken: the session goes on without it.
+[[nodiscard]] bool ends_alone();
 
 /// The rest of a node's main() after ros::init: runs `body` with the parameters, and ends with the
 /// roslaunch that started it. An exception is logged as a fatal error. What the node writes is its

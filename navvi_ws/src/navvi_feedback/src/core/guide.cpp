@@ -57,6 +57,9 @@ Guide::Parts::Parts(const GuideConfig::Values& config, cues::Phrases worded)
   if (config.lead == "hand" && !config.haptics.enabled)
     throw navvi_config::ConfigError(
         "lead is hand, but haptics/enabled is false; the motors lead only where they are on");
+  if (config.lead == "flow" && !config.sounds.enabled)
+    throw navvi_config::ConfigError(
+        "lead is flow, but sounds/enabled is false; a sound leads only where sounds are on");
 }
 
 void Guide::Parts::take(const TrialState& state, double time) {

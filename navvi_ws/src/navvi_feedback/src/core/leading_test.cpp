@@ -183,6 +183,10 @@ TEST(LeadingConfig, by_the_hand_is_refused_without_motors) {
   GuideConfig config;
   navvi_config::read(config, YAML::Load("{lead: hand, haptics: {enabled: false}}"), "test");
   EXPECT_THROW(Guide(config, cues::Phrases(kEnglish)), navvi_config::ConfigError);
+  config->lead = "flow";
+  EXPECT_NO_THROW(Guide(config, cues::Phrases(kEnglish)));
+  config->sounds.enabled = false;
+  EXPECT_THROW(Guide(config, cues::Phrases(kEnglish)), navvi_config::ConfigError);
 }
 
 }  // namespace

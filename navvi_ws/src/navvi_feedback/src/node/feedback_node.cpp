@@ -57,6 +57,7 @@ class FeedbackNode {
                                                [this](const ros::WallTimerEvent&) { diagnose(); });
   }
 
+  void stop_wheels() { outlets_.stop_wheels(); }
   /// Leaves nothing running, driving or speaking.
   void finish() {
     tick_timer_.stop();
@@ -174,8 +175,8 @@ bool await_master() {
 
 void spin(FeedbackNode& node) {
   navvi_config::spin();
-  if (!ros::ok() || navvi_config::name_is_taken()) return;
-  node.finish();
+  if (!ros::ok()) return;
+  navvi_config::ends_alone() ? node.stop_wheels() : node.finish();
   navvi_config::flush();
 }
 
