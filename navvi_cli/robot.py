@@ -2,6 +2,7 @@
 import ast
 import math
 import os
+import signal
 import statistics
 import struct
 import time
@@ -196,6 +197,7 @@ def listen(robot, seconds):
     master = rosgraph.Master("/robot_check")
     if not master.is_online():
         fail(f"no ROS master answers at {os.environ['ROS_MASTER_URI']}; start the robot's drivers, or set ROS_MASTER_URI as they have it.", 2)
+    signal.signal(signal.SIGPIPE, signal.SIG_IGN)  # a master or a driver may end meanwhile
     rospy.init_node("robot_check", argv=[], anonymous=True, disable_signals=True)  # a word such as scan:=/front would rename /scan
     for name, kind in robot.wanted().items():
         rospy.Subscriber(name, roslib.message.get_message_class(kind),
@@ -204,6 +206,8 @@ def listen(robot, seconds):
         rospy.Subscriber(name, TFMessage, lambda message, fixed=fixed: robot.frames.take(
             message, message._connection_header["callerid"], fixed, rospy.get_time()), queue_size=200)
     time.sleep(seconds)
+    if not master.is_online():
+        fail(f"the ROS master at {os.environ['ROS_MASTER_URI']} ended meanwhile; one that runs for {seconds} s is needed.", 2)
     publishers, takers, _ = master.getSystemState()
     own = rospy.get_name()
     robot.kinds = {name: kind for name, kind in master.getTopicTypes() if kind != "*"}

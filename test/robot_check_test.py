@@ -1,6 +1,8 @@
 """./navvi robot check: what it says of robots whose messages are made up here, and of one that runs."""
 import math
+import socket
 import subprocess
+import time
 
 import pytest
 from nav_msgs.msg import OccupancyGrid, Odometry
@@ -12,7 +14,8 @@ import rospy
 import fake_robot
 from navvi_cli import robot, robot_check
 from navvi_cli.arguments import LaunchFile
-from sessions import ROOT, Programs
+from conftest import free_port
+from sessions import ROOT, Programs, eventually
 
 RAYS, NOW = 360, 1000.0
 
@@ -193,3 +196,15 @@ def test_a_robot_that_runs_is_checked(master, habits, words, code, sentence):
 def test_without_a_master_it_says_so(master):
     result = check(dict(master, ROS_MASTER_URI="http://127.0.0.1:9"))
     assert result.returncode == 2 and "no ROS master answers at http://127.0.0.1:9" in result.stderr
+
+
+def test_a_master_that_ends_meanwhile_ends_it_in_a_sentence(master):
+    port = free_port()
+    env = dict(master, ROS_MASTER_URI=f"http://127.0.0.1:{port}")
+    with Programs(env) as programs:
+        programs.start("rosmaster", "--core", "-p", port)
+        assert eventually(lambda: socket.socket().connect_ex(("127.0.0.1", port)) == 0, 20)
+        checking = subprocess.Popen([str(ROOT / "navvi"), "robot", "check"], env=env, stderr=subprocess.PIPE, text=True)
+        time.sleep(5.0)
+    said = checking.communicate(timeout=60)[1]
+    assert checking.returncode == 2 and "ended meanwhile" in said, said
