@@ -8,7 +8,7 @@ import signal
 
 import pytest
 
-from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
+from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
 from navvi_study import actions, export, journal, overview, progress, questionnaire, record, report, runner, schedule, study, table, verify, worlds
 from navvi_study.errors import StudyError
 from navvi_study.steps import probe
@@ -293,6 +293,35 @@ def test_D1_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_o
              for kind, numbers in (("notes", (3, 4)), ("answers", (13, 14))) for number in numbers]
     assert sentences[1:] == named and all(f"  {sentence}" in overview.status(work.study, work.study.progress()) for sentence in named)
     assert len(table.answers(work.study, work.study.progress())) == 12
+
+
+CHANGES = {
+    "file": lambda lines: [], "line": lambda lines: lines[:3] + lines[4:],
+    "twice": lambda lines: [*lines, lines[2].replace('"step": ', '"again": 1, "step": ')],
+    "answer": lambda lines: [lines[0].replace('"answer": "', '"answer": "1'), *lines[1:]]}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_verify_names_the_step_whose_answers_are_not_those_that_were_given(work, monkeypatch, capsys, change):
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
+    rest(work())
+    assert actions.verify(words(work.study, accept_loss=None)) == 0
+    path, told = work.study.home("sub-01") / "answers.jsonl", "sub-01 s1-c1-tlx: the answers are not those that were given"
+    path.write_text("".join(CHANGES[change](path.read_text().splitlines(keepends=True))))
+    capsys.readouterr()
+    assert actions.verify(words(work.study, accept_loss=None)) == 1
+    said = capsys.readouterr().out
+    assert told in said and ("sub-01 s1-c2-tlx" in said) == (change == "file") and ", 0 lost" not in said
+    for row in (state := work.study.progress()).people["sub-01"].done.values():
+        row.pop("answers", None)
+    assert told not in str(verify.notes_and_answers(work.study, state)), "as in journals of before"
+
+
+def test_nobody_tells_answers_by_their_sum_once_they_are_erased(work):
+    rest(work())
+    assert all("salt" not in row for row in work.study.answers("sub-01"))
+    path = work.study.home("sub-01") / "answers.jsonl"
+    assert len({json.loads(line)["salt"] for line in path.read_text().splitlines()}) == 12
 
 
 def test_a_reason_that_is_not_utf_8_leaves_the_journal_whole(work):

@@ -237,7 +237,8 @@ def verify(args):
 
     A line a trial: whether its files are as they were when it ended, by the sums in
     the study's journal, and whether journal, bag and the row of trials.csv are equal;
-    a line a participant: how many of the notes and answers are read.
+    a line a participant: how many of the notes and answers are read, and whether
+    the answers are those that were given.
 
     Where the journal has lost rows, nothing goes on until it is restored from a
     copy, or --accept-loss writes the reason. Then "study next" takes up trials and
@@ -256,7 +257,7 @@ def verify(args):
     unrecorded = study.unrecorded()
     lines += [*overview.losses(study.progress()), *unrecorded.values()]
     print("\n".join([*sentences, *lines, f"{overview.counted(len(sentences), 'trial')}, {bad} differ.",
-                     f"{overview.counted(counts['notes'], 'note')} and {overview.counted(counts['answers'], 'answer')}, {lost} lost."]))
+                     f"{overview.counted(counts['notes'], 'note')} and {overview.counted(counts['answers'], 'answer')}, {lost} lost or changed."]))
     return 1 if bad or lost or unrecorded else 0
 
 

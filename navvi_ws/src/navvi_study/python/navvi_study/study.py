@@ -204,14 +204,20 @@ class Study:
     def add_answer(self, participant, step, item, answer, seconds="n/a"):
         append_line(self.home(participant) / "answers.jsonl", {
             "step": step.name, "condition": step.condition, "order": step.order, "session": step.session, "questionnaire": step.asks.name,
-            "item": item.name, "answer": answer, "seconds": seconds, "utc": utc_now()})
+            "item": item.name, "answer": answer, "seconds": seconds, "utc": utc_now(), "salt": secrets.token_hex(8)})
 
     def answers_of(self, participant, step):
         """By item's name."""
         return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name}
 
+    def sum_of_answers(self, participant, step):
+        """SHA-256 of the answers to a step, by its name. Without their salt, which is erased with them, nobody guesses the answers by it."""
+        rows, _ = read_lines(self.home(participant) / "answers.jsonl", FIELDS["answers"])
+        return hashlib.sha256(json.dumps([row for row in rows if row["step"] == step], sort_keys=True).encode()).hexdigest()
+
     def answers(self, participant):
-        return [dict(row, condition=self.letters.get(row["condition"], row["condition"])) for row in self.lines(participant, "answers")[0]]
+        return [{**{name: cell for name, cell in row.items() if name != "salt"}, "condition": self.letters.get(row["condition"], row["condition"])}
+                for row in self.lines(participant, "answers")[0]]
 
     def agreed(self, participant, item):
         """Whether the last answer to the item of the consent is yes."""

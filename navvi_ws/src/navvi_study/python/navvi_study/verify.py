@@ -26,8 +26,8 @@ def verify(study, progress, count_trial):
 
 
 def notes_and_answers(study, progress):
-    """A sentence a participant, and one for each line that cannot be read; then how many lines there are of each kind, and how many of them
-    are in no table."""
+    """A sentence a participant, and one for each line that cannot be read and each step whose answers are not those that were given; then
+    how many lines there are of each kind, and how many lines and steps these sentences name."""
     sentences, counts, lost = [], dict.fromkeys(FIELDS, 0), 0
     for name, person in progress.people.items():
         if not person.begun or person.withdrawn == "delete":
@@ -37,7 +37,10 @@ def notes_and_answers(study, progress):
             counts[kind] += len(rows) + len(skipped)
             lost += len(skipped)
         sentences.append(f"{name}: " + ", ".join(f"{kind} {len(rows)} of {len(rows) + len(skipped)}" for kind, (rows, skipped) in found.items()) + ".")
+        changed = [step for step, row in person.done.items() if "answers" in row and row["answers"] != study.sum_of_answers(name, step)]
+        lost += len(changed)
         sentences += study.unread(name)
+        sentences += [f"{name} {step}: the answers are not those that were given, by their sum in the journal." for step in changed]
     return sentences, counts, lost
 
 
