@@ -289,8 +289,9 @@ def test_D1_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_o
             file.write(damage)
     sentences, counts, lost = verify.notes_and_answers(work.study, work.study.progress())
     assert sentences[0] == "sub-01: notes 2 of 4, answers 12 of 14." and counts == {"notes": 4, "answers": 14} and lost == 4
-    named = [f"{work.study.home('sub-01') / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
-             for kind, numbers in (("notes", (3, 4)), ("answers", (13, 14))) for number in numbers]
+    named = [f"{work.study.home('sub-01') / kind}.jsonl:{number}: the line is damaged or unfinished{more}; it is passed over."
+             for kind, more, numbers in (("notes", "", (3, 4)), ("answers", ", or its item does not allow the answer", (13, 14)))
+             for number in numbers]
     assert sentences[1:] == named and all(f"  {sentence}" in overview.status(work.study, work.study.progress()) for sentence in named)
     assert len(table.answers(work.study, work.study.progress())) == 12
 
@@ -315,6 +316,20 @@ def test_verify_names_the_step_whose_answers_are_not_those_that_were_given(work,
     for row in (state := work.study.progress()).people["sub-01"].done.values():
         row.pop("answers", None)
     assert told not in str(verify.notes_and_answers(work.study, state)), "as in journals of before"
+
+
+@pytest.mark.parametrize("answer", ["9999", "abc", "nan", "-1"])
+def test_an_answer_that_its_item_does_not_allow_is_named_and_is_in_no_result(work, answer):
+    rest(work())
+    path = work.study.home("sub-01") / "answers.jsonl"
+    first, *others = map(json.loads, path.read_text().splitlines())
+    path.write_text("".join(json.dumps(row) + "\n" for row in ({**first, "answer": answer}, *others)))
+    state = work.study.progress()
+    assert len(table.answers(work.study, state)) == 11 and table.scores(work.study, state)[0]["score"] is None
+    sentences, _, lost = verify.notes_and_answers(work.study, state)
+    assert lost == 2 and f"{path}:1: the line is damaged or unfinished, or its item does not allow the answer; it is passed over." in sentences
+    assert ["lines of notes and answers that cannot be read", 1] in report.quality(work.study, state)
+    assert report.page(work.study, state, rehearsed=False)
 
 
 def test_nobody_tells_answers_by_their_sum_once_they_are_erased(work):

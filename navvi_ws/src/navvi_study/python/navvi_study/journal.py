@@ -180,16 +180,17 @@ def append_line(path, values):
         raise StudyError(f"{path} cannot be written: {problem.strerror}.") from None
 
 
-def read_lines(path, fields):
+def read_lines(path, fields, allowed=lambda row: True):
     """The rows that append_line() wrote whole, and the numbers of the lines that are none: unfinished when the power failed, or damaged.
-    \\param fields  the type of each by name"""
+    \\param fields  the type of each by name
+    \\param allowed  whether a row with them is one"""
     rows, skipped = [], []
     for number, line in enumerate(lines_of(path), 1):
         try:
             row = json.loads(line)
         except (ValueError, RecursionError):
             row = None
-        if isinstance(row, dict) and all(isinstance(row.get(name), kind) for name, kind in fields.items()):
+        if isinstance(row, dict) and all(isinstance(row.get(name), kind) for name, kind in fields.items()) and allowed(row):
             rows.append(row)
         elif line:
             skipped.append(number)

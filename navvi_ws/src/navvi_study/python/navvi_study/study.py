@@ -18,7 +18,9 @@ from .errors import StudyError
 from .journal import Journal, append_line, lines_of, read_lines, sync_folder, utc_now
 from .plan import Group
 from .progress import Progress
+from .questionnaire import DECLINED
 from .record import summary_of
+from .schedule import steps_of
 
 # What each line of a participant's files holds at least.
 FIELDS = {
@@ -232,13 +234,21 @@ class Study:
         return self.lines(participant, "notes")[0]
 
     def lines(self, participant, kind):
-        """Rows of the participant's notes or answers, and the numbers of the lines of the file that cannot be read."""
-        return read_lines(self.home(participant) / f"{kind}.jsonl", FIELDS[kind])
+        """Rows of the participant's notes or answers, and the numbers of the lines of the file that cannot be read, or whose item does not
+        allow the answer."""
+        asked = {step.asks for step in steps_of(self.plan, participant) if step.asks}
+        items = {(one.name, item.name): item for one in asked for item in one.items}
+
+        def allowed(row):
+            item = items.get((row["questionnaire"], row["item"])) if kind == "answers" else None
+            return not item or row["answer"] in (DECLINED, *item.values())
+        return read_lines(self.home(participant) / f"{kind}.jsonl", FIELDS[kind], allowed)
 
     def unread(self, participant):
         """A sentence for each line of notes or answers that was passed over."""
-        return [f"{self.home(participant) / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
-                for kind in FIELDS for number in self.lines(participant, kind)[1]]
+        return [f"{self.home(participant) / kind}.jsonl:{number}: the line is damaged or unfinished{more}; it is passed over."
+                for kind, more in (("notes", ""), ("answers", ", or its item does not allow the answer"))
+                for number in self.lines(participant, kind)[1]]
 
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
