@@ -53,18 +53,20 @@ class Journal:
             return row
 
     def lost(self):
-        """The last row that was written, where it was lost, alone or with others; empty otherwise."""
+        """The rows that were written and lost, up to the last; empty where that is there."""
         with self._locked() as file:
             return self._lost(self._read(file))
 
     def lacks(self, row):
-        return f"{self.path} lacks {row}, which was written; restore it from a copy."
+        return f"{self.path} lacks {row}, written before; restore it from a copy."
 
     def _lost(self, rows):
-        for last in read_lines(self.last, {"seq": int, "type": str, "hash": str})[0]:
+        for last in read_lines(self.last, {"seq": int, "utc": str, "mono_ns": int, "type": str, "hash": str})[0]:
             if last["hash"] not in [row["hash"] for row in rows[last["seq"] - 1:last["seq"]]]:
                 what = " ".join(str(last[key]) for key in ("type", "participant", "step") if key in last)
-                return f"row {last['seq']} ({what})"
+                # Without rows that were written after the loss.
+                first = sum((row["utc"], row["mono_ns"]) <= (last["utc"], last["mono_ns"]) for row in rows) + 1
+                return f"row {last['seq']} ({what})" if first >= last["seq"] else f"rows {first} to {last['seq']} (the last: {what})"
         return ""
 
     @contextlib.contextmanager
