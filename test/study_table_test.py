@@ -58,6 +58,22 @@ def test_a_file_that_changed_after_its_trial_is_named(work):
     assert verify._files(trial, {}) == "no sums", "as in journals of before"
 
 
+def test_a_summary_that_changed_is_counted_by_report_table_and_export(work, monkeypatch, capsys):
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    rest(work())
+    for at in range(2):
+        write_record(trial_of(work.study, at=at)[1])
+    monkeypatch.setattr(export, "way_of", lambda trial: [])
+    _, trial = trial_of(work.study)
+    told = f"1 trial with files that changed since the trial ended; \"./navvi study verify {work.study.plan.file}\""
+    for content, count in ((trial / "summary.csv").read_text(), 0), ((trial / "summary.csv").read_text().replace("20.0", "19.0"), 1):
+        (trial / "summary.csv").write_text(content)
+        for action in actions.report, actions.table, actions.export:
+            action(words(work.study, only="time", blind=False, bids=True))
+            assert (told in capsys.readouterr().out) == bool(count)
+        assert ["trials whose tables changed since they ended", count] in report.quality(work.study, work.study.progress())
+
+
 def test_verify_names_what_differs_in_journal_and_table(work, tmp_path):
     rest(work())
     attempt, trial = trial_of(work.study)

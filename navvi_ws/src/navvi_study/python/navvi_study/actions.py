@@ -227,8 +227,7 @@ def table(args):
     from . import table
     study = opened(args)
     study.require_analysis()
-    for path in table.write(study, study.progress(), _figures()):
-        print(f"navvi: written: {path}")
+    _written(study, *table.write(study, study.progress(), _figures()))
 
 
 @action(PLAN, argument("--accept-loss", metavar="TEXT", help="why the study goes on without the rows that its journal has lost."))
@@ -273,7 +272,7 @@ def export(args):
     from . import export
     study = opened(args)
     study.require_analysis()
-    print(f"navvi: written: {export.write(study, study.progress(), export.way_of)}")
+    _written(study, export.write(study, study.progress(), export.way_of))
 
 
 @action(PLAN, ONLY, argument("--blind", action="store_true", help="write report-blind.html, with letters for the conditions, and no table."))
@@ -375,8 +374,16 @@ def _write_report(study, only, rehearsed):
     else:
         files.append(study.folder / f"{only}{'-blind' if study.letters else ''}.svg")
         write_safely(files[-1], figures.by_condition(measured, only))
-    for path in files:
+    _written(study, *files)
+
+
+def _written(study, *paths):
+    from . import overview, verify
+    for path in paths:
         print(f"navvi: written: {path}")
+    if count := verify.changed(study, study.progress()):
+        print(f"navvi: {overview.counted(count, 'trial')} with files that changed since the trial ended; "
+              f"\"./navvi study verify {study.plan.file}\" names them.")
 
 
 def _reason(words):

@@ -25,6 +25,16 @@ def verify(study, progress, count_trial):
     return sentences, bad
 
 
+def changed(study, progress):
+    """How many trials have a table, such as summary.csv, that is not as it was when they ended. Bags, which take long, are left to verify()."""
+    found = 0
+    for row in table.trials(study, progress, strict=False):
+        attempt = table.attempt_of(progress, row)
+        folder = study.attempt_folder(row["participant"], attempt.step, attempt.number) / row["trial"]
+        found += _files(folder, {name: known for name, known in attempt.legs[row["trial"]].items() if name.endswith(".csv")}).startswith("differ")
+    return found
+
+
 def notes_and_answers(study, progress):
     """A sentence a participant, and one for each line that cannot be read and each step whose answers are not those that were given; then
     how many lines there are of each kind, and how many lines and steps these sentences name."""
