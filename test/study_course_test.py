@@ -279,7 +279,7 @@ def test_nobody_drives_without_consent(tmp_path):
     assert rest(begun) == [] and begun.runner.driven == []
 
 
-def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_table(tmp_path):
+def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_table(tmp_path, monkeypatch, capsys):
     kept = frozen(tmp_path, ("operator: simulated", "operator: simulated\nconsent: consent_example"), ("{after_condition", "{at_begin: [about_you], after_condition"))
     said = []
     begun = begin(kept, say=said.append)
@@ -297,6 +297,9 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
         write_record(trial_of(kept, name, at)[1])
     folder = export.write(kept, kept.progress(), lambda trial: [])
     assert (folder / "participants.tsv").read_text().splitlines() == ["participant_id\tgroup\t" + "\t".join(columns), "sub-02\tall" + "\tn/a" * 5], "sub-01 said no to share"
+    monkeypatch.setattr(export, "way_of", lambda trial: [])
+    actions.export(words(kept, bids=True))
+    assert "navvi: left out: 1 of 2 participants, without a yes to share in the consent." in capsys.readouterr().out
     assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
 
 

@@ -269,10 +269,13 @@ def export(args):
     Exit codes
     0: written. 2: a wrong plan, or a record that cannot be read.
     """
-    from . import export
+    from . import export, overview
     study = opened(args)
     study.require_analysis()
     _written(study, export.write(study, study.progress(), export.way_of))
+    agreed = [*export.agreed(study, study.progress()).values()]
+    if left_out := agreed.count(False):
+        print(f"navvi: left out: {left_out} of {overview.counted(len(agreed), 'participant')}, without a yes to share in the consent.")
 
 
 @action(PLAN, ONLY, argument("--blind", action="store_true", help="write report-blind.html, with letters for the conditions, and no table."))
