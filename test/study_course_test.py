@@ -320,6 +320,26 @@ def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, tmp_path):
     assert rest(work()) == []
 
 
+def test_no_table_and_no_export_holds_who_has_withdrawn(work, monkeypatch, capsys):
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    monkeypatch.setattr(export, "way_of", lambda trial: [])
+    for name in "sub-01", "sub-02":
+        rest(work(), name)
+        for at in range(2):
+            write_record(trial_of(work.study, name, at)[1])
+
+    def holding(name):
+        return {path.name for path in work.study.folder.rglob("*.?sv") if name in path.read_text() or name in path.name}
+    for delete, left in ("keep", {"trials.csv", "answers.csv", "events.csv", "participants.tsv"}), ("delete", set()):
+        actions.table(words(work.study))
+        actions.export(words(work.study, bids=True))
+        actions.withdraw(words(work.study, participant="sub-02", data=delete))
+        assert holding("sub-02") >= left and (left or not holding("sub-02")), delete
+    assert "\"study report\" and \"study export\" write those anew" in capsys.readouterr().out
+    actions.table(words(work.study))
+    assert holding("sub-01") and not holding("sub-02")
+
+
 def test_the_study_stops_where_the_plan_says(tmp_path):
     kept = frozen(tmp_path, ("limit: 60", "stop: {completed: 1}\nlimit: 60"))
     begun = begin(kept)

@@ -199,8 +199,9 @@ def exclude(args):
 def withdraw(args):
     """Write that a participant has withdrawn, and delete or keep what there is.
 
-    Deleted are trials, answers, notes and settings; the record keeps the code, and
-    that it was withdrawn.
+    Deleted are trials, answers, notes and settings, and the tables and the export of
+    the study, which hold them too; the record keeps the code, and that it was
+    withdrawn.
 
     Exit codes
     0: written. 2: not planned, or withdrawn before.
@@ -212,7 +213,8 @@ def withdraw(args):
     with study.claimed(person.name):
         study.journal.append("withdraw", participant=person.name, data=args.data)
     study.finish_erasing()
-    print(f"navvi: {person.name} has withdrawn; what was recorded is {'deleted' if args.data == 'delete' else 'kept'}.")
+    deleted = "deleted, with tables and export of the study; \"study report\" and \"study export\" write those anew, of the others"
+    print(f"navvi: {person.name} has withdrawn; what was recorded is {deleted if args.data == 'delete' else 'kept'}.")
     if study.unrecorded():
         print("navvi: the journal has lost rows; withdraw again once it is restored from a copy.")
 

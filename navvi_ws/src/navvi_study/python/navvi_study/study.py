@@ -269,7 +269,10 @@ class Study:
         """What was to be deleted is deleted, also after a crash amid that."""
         for person in self.progress().people.values():
             if person.withdrawn == "delete" and not person.erased:
-                shutil.rmtree(self.home(person.name), ignore_errors=True)
+                for path in (self.home(person.name), self.folder / "bids"):
+                    shutil.rmtree(path, ignore_errors=True)
+                for name in ("trials", "answers", "events"):
+                    (self.folder / f"{name}.csv").unlink(missing_ok=True)
                 if self.home(person.name).exists():
                     raise StudyError(f"{self.home(person.name)} cannot be deleted, and the withdrawal asks for it; delete it.")
                 self.journal.append("erased", participant=person.name)
