@@ -320,6 +320,11 @@ def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, tmp_path):
     assert rest(work()) == []
 
 
+def test_a_check_without_worlds_says_what_was_not_checked(work, capsys):
+    assert actions.check(words(work.study, no_worlds=True, pictures=False)) == 0
+    assert capsys.readouterr().out.endswith("\nThe worlds and the parameters of the conditions were not checked.\n")
+
+
 def test_no_table_and_no_export_holds_who_has_withdrawn(work, monkeypatch, capsys):
     monkeypatch.setattr(actions, "_figures", lambda: [])
     monkeypatch.setattr(export, "way_of", lambda trial: [])

@@ -38,7 +38,7 @@ def _opened(args):
     return Study.of(args.plan)
 
 
-@action(PLAN, argument("--no-worlds", action="store_true", help="leave the worlds out, which takes some seconds each."),
+@action(PLAN, argument("--no-worlds", action="store_true", help="leave worlds and parameters unchecked; each world takes some seconds."),
         argument("--pictures", action="store_true", help="draw each world from above, as SVG in the folder worlds of the study."))
 def check(args):
     """Print the whole schedule of a study before anything starts.
@@ -55,6 +55,7 @@ def check(args):
     planned = plan_file.load(args.plan)
     print("\n".join(overview.schedule(planned)))
     if args.no_worlds:
+        print("\nThe worlds and the parameters of the conditions were not checked.")
         return 0
     _require_runnable(planned)
     lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
