@@ -70,6 +70,8 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     assert actions.verify(args) == 0
     with pytest.raises(StudyError, match="nothing to accept"):
         actions.verify(words(kept, accept_loss="the disk failed"))
+    with pytest.raises(StudyError, match="^--accept-loss is \"\""):
+        actions.verify(words(kept, accept_loss=""))
 
 
 @pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])

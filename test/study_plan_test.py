@@ -190,6 +190,11 @@ def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
     assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
 
 
+def test_minutes_are_printed_with_one_decimal_at_most(tmp_path):
+    shown = "\n".join(overview.schedule(small(tmp_path, ("limit: 60", "limit: 100"))))
+    assert "easy 1, about 0.8 min\n" in shown and "tlx, about 3 min\n" in shown
+
+
 def test_zones_of_a_world_are_a_file_beside_the_plan_that_is_frozen_with_what_is_in_it(tmp_path):
     assert "zones" not in json.dumps(small(tmp_path).values()), "plans without keep their hash"
     with_zones = ("a: {world: easy", "a: {zones: own.yaml, world: easy")

@@ -74,6 +74,17 @@ def test_a_summary_that_changed_is_counted_by_report_table_and_export(work, monk
         assert ["trials whose tables changed since they ended", count] in report.quality(work.study, work.study.progress())
 
 
+def test_what_a_program_says_ends_within_the_sentence_of_its_trial(work, tmp_path):
+    rest(work())
+    _, trial = trial_of(work.study)
+    write_record(trial)
+    (trial / "trial.bag").touch()
+    (tmp_path / "bad").write_text("#!/bin/sh\necho There is no summary.csv in order in $2. >&2\nexit 2\n")
+    (tmp_path / "bad").chmod(0o755)
+    found = verify.verify(work.study, work.study.progress(), tmp_path / "bad")[0][0]
+    assert f"journal differs: There is no summary.csv in order in {trial}, bag differs: There is no summary.csv in order in {trial}, table" in found
+
+
 def test_verify_names_what_differs_in_journal_and_table(work, tmp_path):
     rest(work())
     attempt, trial = trial_of(work.study)

@@ -253,7 +253,7 @@ def verify(args):
     from . import overview, verify
     study = _opened(args)
     if args.accept_loss is not None:
-        study.accept_loss(_reason(args.accept_loss))
+        study.accept_loss(_reason(args.accept_loss, "--accept-loss"))
     sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
     lines, counts, lost = verify.notes_and_answers(study, study.progress())
     unrecorded = study.unrecorded()
@@ -392,9 +392,9 @@ def _written(study, *paths):
               f"\"./navvi study verify {study.plan.file}\" names them.")
 
 
-def _reason(words):
+def _reason(words, option="--reason"):
     from . import checked, journal
     try:
         return checked.text(journal.plain(words))
     except ValueError as allowed:
-        raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
+        raise StudyError(f"{option} is \"{words}\"; allowed is {allowed}.") from None

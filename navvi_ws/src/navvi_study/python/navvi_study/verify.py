@@ -65,7 +65,7 @@ def _journal(program, folder):
     if not (folder / "journal.csv").is_file():
         return "no journal"
     result = subprocess.run([str(program), "journal", str(folder)], capture_output=True, errors="replace", check=False)
-    return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[-3:])
+    return EQUAL if result.returncode == 0 else "differs: " + _clauses((result.stderr or result.stdout).splitlines()[-3:])
 
 
 def _bag(program, folder, row):
@@ -78,7 +78,12 @@ def _bag(program, folder, row):
     said, end = (result.stderr or result.stdout).strip(), Record(folder).first("TRIAL_END")
     if "the bag does not hold the trial's end" in said and end and end.fields.get("reason") in RECOVERED:
         return "no end, as the trial's record broke off"
-    return EQUAL if result.returncode == 0 else "differs: " + "; ".join(said.splitlines()[:3])
+    return EQUAL if result.returncode == 0 else "differs: " + _clauses(said.splitlines()[:3])
+
+
+def _clauses(lines):
+    """Of a sentence: without the ends of their own."""
+    return "; ".join(line.strip().rstrip(".") for line in lines)
 
 
 def _table(study, row, attempt):
