@@ -279,7 +279,7 @@ def test_nobody_drives_without_consent(tmp_path):
     assert rest(begun) == [] and begun.runner.driven == []
 
 
-def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_table(tmp_path):
+def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_table(tmp_path, monkeypatch, capsys):
     kept = frozen(tmp_path, ("operator: simulated", "operator: simulated\nconsent: consent_example"), ("{after_condition", "{at_begin: [about_you], after_condition"))
     said = []
     begun = begin(kept, say=said.append)
@@ -297,6 +297,9 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
         write_record(trial_of(kept, name, at)[1])
     folder = export.write(kept, kept.progress(), lambda trial: [])
     assert (folder / "participants.tsv").read_text().splitlines() == ["participant_id\tgroup\t" + "\t".join(columns), "sub-02\tall" + "\tn/a" * 5], "sub-01 said no to share"
+    monkeypatch.setattr(export, "way_of", lambda trial: [])
+    actions.export(words(kept, bids=True))
+    assert "navvi: left out: 1 of 2 participants, without a yes to share in the consent." in capsys.readouterr().out
     assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
 
 
@@ -315,6 +318,31 @@ def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, tmp_path):
     assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"], "once"
     assert table.trials(again, again.progress()) == [] and table.answers(again, again.progress()) == []
     assert rest(work()) == []
+
+
+def test_a_check_without_worlds_says_what_was_not_checked(work, capsys):
+    assert actions.check(words(work.study, no_worlds=True, pictures=False)) == 0
+    assert capsys.readouterr().out.endswith("\nThe worlds and the parameters of the conditions were not checked.\n")
+
+
+def test_no_table_and_no_export_holds_who_has_withdrawn(work, monkeypatch, capsys):
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    monkeypatch.setattr(export, "way_of", lambda trial: [])
+    for name in "sub-01", "sub-02":
+        rest(work(), name)
+        for at in range(2):
+            write_record(trial_of(work.study, name, at)[1])
+
+    def holding(name):
+        return {path.name for path in work.study.folder.rglob("*.?sv") if name in path.read_text() or name in path.name}
+    for delete, left in ("keep", {"trials.csv", "answers.csv", "events.csv", "participants.tsv"}), ("delete", set()):
+        actions.table(words(work.study))
+        actions.export(words(work.study, bids=True))
+        actions.withdraw(words(work.study, participant="sub-02", data=delete))
+        assert holding("sub-02") >= left and (left or not holding("sub-02")), delete
+    assert "\"study report\" and \"study export\" write those anew" in capsys.readouterr().out
+    actions.table(words(work.study))
+    assert holding("sub-01") and not holding("sub-02")
 
 
 def test_the_study_stops_where_the_plan_says(tmp_path):

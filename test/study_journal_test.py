@@ -15,7 +15,7 @@ import pytest
 import rosbag
 
 from small_study import Driver, begin, bench, exclusion, frozen, rehearsed, rest, small, trial_of, words, work  # noqa: F401
-from navvi_study import actions, journal, report, runner, session, study, table, verify
+from navvi_study import actions, journal, overview, report, runner, session, study, table, verify
 from navvi_study.errors import StudyError
 from sessions import ROOT, eventually
 
@@ -70,6 +70,8 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     assert actions.verify(args) == 0
     with pytest.raises(StudyError, match="nothing to accept"):
         actions.verify(words(kept, accept_loss="the disk failed"))
+    with pytest.raises(StudyError, match="^--accept-loss is \"\""):
+        actions.verify(words(kept, accept_loss=""))
 
 
 @pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
@@ -114,6 +116,18 @@ def test_who_withdraws_is_erased_also_where_the_journal_has_lost_rows(work, monk
         assert action(args) == code
         capsys.readouterr() if action == actions.stop else None
     assert "(erased sub-02)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("rows, named", [(4, "rows {} to {} (the last: done sub-01 s1-end)"), (1, "row {1} (done sub-01 s1-end)")])
+def test_all_rows_that_were_lost_are_named_also_once_others_follow(work, rows, named):
+    rest(work())
+    kept, lines = work.study, work.study.journal.path.read_bytes().splitlines(keepends=True)
+    kept.journal.path.write_bytes(b"".join(lines[:-rows]))
+    named = named.format(len(lines) - rows + 1, len(lines))
+    study.Study(kept.plan).journal.append("withdraw", participant="sub-02", data="delete")
+    assert f"lacks {named}," in str(study.Study(kept.plan).unrecorded())
+    study.Study(kept.plan).accept_loss("the disk failed")
+    assert named in overview.losses(study.Study(kept.plan).progress())[0]
 
 
 def trial_of_first(kept):

@@ -7,6 +7,7 @@ import json
 import pytest
 
 from small_study import EXAMPLE, PACKAGE, begin, frozen, rest, small
+from sessions import ROOT
 from navvi_study import checked, design, overview, plan_file, preregistration, progress, questionnaire, report, runner, schedule, steps, study, worlds
 from navvi_study.errors import StudyError
 from navvi_study.steps.step import Step
@@ -189,6 +190,11 @@ def test_a_condition_becomes_arguments_that_lock_it(tmp_path):
     assert words["trial/study/condition"] == "plain" and words["participant"] == "sub-01" and words["once"] == "true"
 
 
+def test_minutes_are_printed_with_one_decimal_at_most(tmp_path):
+    shown = "\n".join(overview.schedule(small(tmp_path, ("limit: 60", "limit: 100"))))
+    assert "easy 1, about 0.8 min\n" in shown and "tlx, about 3 min\n" in shown
+
+
 def test_zones_of_a_world_are_a_file_beside_the_plan_that_is_frozen_with_what_is_in_it(tmp_path):
     assert "zones" not in json.dumps(small(tmp_path).values()), "plans without keep their hash"
     with_zones = ("a: {world: easy", "a: {zones: own.yaml, world: easy")
@@ -215,6 +221,19 @@ def test_zones_of_a_world_are_a_file_beside_the_plan_that_is_frozen_with_what_is
     file.write_text("- {name: dock, kind: keep_out, corners: [0, 0, 2, 0, 2, 2]}\n")
     with pytest.raises(StudyError, match="world_files/own.yaml: .* is now"):
         study.Study.of(kept.plan.file).require_frozen()
+
+
+def test_a_plan_whose_voice_has_another_language_is_rehearsed_without_it(tmp_path):
+    kept = frozen(tmp_path, ("full: {picture: false}", "full: {picture: false, parameters: {feedback/language: es, feedback/person: p, "
+                             "feedback/speaker/rate: 200, perception/no_return: free, nav/map_frame: map, feedback/haptics/strength: 0.5, "
+                             "feedback/lead: ticks}}"),
+                  ("limit: 60", "limit: 2"))
+    step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.condition == "full" and step.kind == "trial")
+    bench = ROOT / "navvi_ws/devel/lib/navvi_study/trials_bench"
+    runner.LoopRunner(kept, bench, "test").trial("sub-01", step, progress.Attempt(step.name, 1, "easy", 1), tmp_path / "out", 0)
+    assert next((tmp_path / "out").glob("trial-*/summary.csv")).is_file()
+    parameters = next((tmp_path / "out").glob("trial-*/journal.csv")).read_text()
+    assert "strength" in parameters and "lead" in parameters and "language" not in parameters
 
 
 def test_a_new_kind_of_step_is_one_class(tmp_path, monkeypatch):

@@ -8,7 +8,7 @@ import signal
 
 import pytest
 
-from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, work, write_record, write_summary  # noqa: F401
+from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
 from navvi_study import actions, export, journal, overview, progress, questionnaire, record, report, runner, schedule, study, table, verify, worlds
 from navvi_study.errors import StudyError
 from navvi_study.steps import probe
@@ -56,6 +56,33 @@ def test_a_file_that_changed_after_its_trial_is_named(work):
     sentences, bad = verify.verify(work.study, work.study.progress(), "true")
     assert bad == 1 and "files differ: summary.csv," in sentences[0]
     assert verify._files(trial, {}) == "no sums", "as in journals of before"
+
+
+def test_a_summary_that_changed_is_counted_by_report_table_and_export(work, monkeypatch, capsys):
+    monkeypatch.setattr(actions, "_figures", lambda: [])
+    rest(work())
+    for at in range(2):
+        write_record(trial_of(work.study, at=at)[1])
+    monkeypatch.setattr(export, "way_of", lambda trial: [])
+    _, trial = trial_of(work.study)
+    told = f"1 trial with files that changed since the trial ended; \"./navvi study verify {work.study.plan.file}\""
+    for content, count in ((trial / "summary.csv").read_text(), 0), ((trial / "summary.csv").read_text().replace("20.0", "19.0"), 1):
+        (trial / "summary.csv").write_text(content)
+        for action in actions.report, actions.table, actions.export:
+            action(words(work.study, only="time", blind=False, bids=True))
+            assert (told in capsys.readouterr().out) == bool(count)
+        assert ["trials whose tables changed since they ended", count] in report.quality(work.study, work.study.progress())
+
+
+def test_what_a_program_says_ends_within_the_sentence_of_its_trial(work, tmp_path):
+    rest(work())
+    _, trial = trial_of(work.study)
+    write_record(trial)
+    (trial / "trial.bag").touch()
+    (tmp_path / "bad").write_text("#!/bin/sh\necho There is no summary.csv in order in $2. >&2\nexit 2\n")
+    (tmp_path / "bad").chmod(0o755)
+    found = verify.verify(work.study, work.study.progress(), tmp_path / "bad")[0][0]
+    assert f"journal differs: There is no summary.csv in order in {trial}, bag differs: There is no summary.csv in order in {trial}, table" in found
 
 
 def test_verify_names_what_differs_in_journal_and_table(work, tmp_path):
@@ -289,10 +316,54 @@ def test_D1_verify_counts_notes_and_answers_and_names_each_line_that_is_passed_o
             file.write(damage)
     sentences, counts, lost = verify.notes_and_answers(work.study, work.study.progress())
     assert sentences[0] == "sub-01: notes 2 of 4, answers 12 of 14." and counts == {"notes": 4, "answers": 14} and lost == 4
-    named = [f"{work.study.home('sub-01') / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
-             for kind, numbers in (("notes", (3, 4)), ("answers", (13, 14))) for number in numbers]
+    named = [f"{work.study.home('sub-01') / kind}.jsonl:{number}: the line is damaged or unfinished{more}; it is passed over."
+             for kind, more, numbers in (("notes", "", (3, 4)), ("answers", ", or its item does not allow the answer", (13, 14)))
+             for number in numbers]
     assert sentences[1:] == named and all(f"  {sentence}" in overview.status(work.study, work.study.progress()) for sentence in named)
     assert len(table.answers(work.study, work.study.progress())) == 12
+
+
+CHANGES = {
+    "file": lambda lines: [], "line": lambda lines: lines[:3] + lines[4:],
+    "twice": lambda lines: [*lines, lines[2].replace('"step": ', '"again": 1, "step": ')],
+    "answer": lambda lines: [lines[0].replace('"answer": "', '"answer": "1'), *lines[1:]]}
+
+
+@pytest.mark.parametrize("change", CHANGES)
+def test_verify_names_the_step_whose_answers_are_not_those_that_were_given(work, monkeypatch, capsys, change):
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
+    rest(work())
+    assert actions.verify(words(work.study, accept_loss=None)) == 0
+    path, told = work.study.home("sub-01") / "answers.jsonl", "sub-01 s1-c1-tlx: the answers are not those that were given"
+    path.write_text("".join(CHANGES[change](path.read_text().splitlines(keepends=True))))
+    capsys.readouterr()
+    assert actions.verify(words(work.study, accept_loss=None)) == 1
+    said = capsys.readouterr().out
+    assert told in said and ("sub-01 s1-c2-tlx" in said) == (change == "file") and ", 0 lost" not in said
+    for row in (state := work.study.progress()).people["sub-01"].done.values():
+        row.pop("answers", None)
+    assert told not in str(verify.notes_and_answers(work.study, state)), "as in journals of before"
+
+
+@pytest.mark.parametrize("answer", ["9999", "abc", "nan", "-1"])
+def test_an_answer_that_its_item_does_not_allow_is_named_and_is_in_no_result(work, answer):
+    rest(work())
+    path = work.study.home("sub-01") / "answers.jsonl"
+    first, *others = map(json.loads, path.read_text().splitlines())
+    path.write_text("".join(json.dumps(row) + "\n" for row in ({**first, "answer": answer}, *others)))
+    state = work.study.progress()
+    assert len(table.answers(work.study, state)) == 11 and table.scores(work.study, state)[0]["score"] is None
+    sentences, _, lost = verify.notes_and_answers(work.study, state)
+    assert lost == 2 and f"{path}:1: the line is damaged or unfinished, or its item does not allow the answer; it is passed over." in sentences
+    assert ["lines of notes and answers that cannot be read", 1] in report.quality(work.study, state)
+    assert report.page(work.study, state, rehearsed=False)
+
+
+def test_nobody_tells_answers_by_their_sum_once_they_are_erased(work):
+    rest(work())
+    assert all("salt" not in row for row in work.study.answers("sub-01"))
+    path = work.study.home("sub-01") / "answers.jsonl"
+    assert len({json.loads(line)["salt"] for line in path.read_text().splitlines()}) == 12
 
 
 def test_a_reason_that_is_not_utf_8_leaves_the_journal_whole(work):

@@ -38,7 +38,7 @@ def _opened(args):
     return Study.of(args.plan)
 
 
-@action(PLAN, argument("--no-worlds", action="store_true", help="leave the worlds out, which takes some seconds each."),
+@action(PLAN, argument("--no-worlds", action="store_true", help="leave worlds and parameters unchecked; each world takes some seconds."),
         argument("--pictures", action="store_true", help="draw each world from above, as SVG in the folder worlds of the study."))
 def check(args):
     """Print the whole schedule of a study before anything starts.
@@ -55,6 +55,7 @@ def check(args):
     planned = plan_file.load(args.plan)
     print("\n".join(overview.schedule(planned)))
     if args.no_worlds:
+        print("\nThe worlds and the parameters of the conditions were not checked.")
         return 0
     _require_runnable(planned)
     lines, alike = worlds.compared(planned, worlds.drive(planned, TOOLS["tool"]("navvi_study", "trials_bench")))
@@ -199,8 +200,9 @@ def exclude(args):
 def withdraw(args):
     """Write that a participant has withdrawn, and delete or keep what there is.
 
-    Deleted are trials, answers, notes and settings; the record keeps the code, and
-    that it was withdrawn.
+    Deleted are trials, answers, notes and settings, and the tables and the export of
+    the study, which hold them too; the record keeps the code, and that it was
+    withdrawn.
 
     Exit codes
     0: written. 2: not planned, or withdrawn before.
@@ -212,7 +214,8 @@ def withdraw(args):
     with study.claimed(person.name):
         study.journal.append("withdraw", participant=person.name, data=args.data)
     study.finish_erasing()
-    print(f"navvi: {person.name} has withdrawn; what was recorded is {'deleted' if args.data == 'delete' else 'kept'}.")
+    deleted = "deleted, with tables and export of the study; \"study report\" and \"study export\" write those anew, of the others"
+    print(f"navvi: {person.name} has withdrawn; what was recorded is {deleted if args.data == 'delete' else 'kept'}.")
     if study.unrecorded():
         print("navvi: the journal has lost rows; withdraw again once it is restored from a copy.")
 
@@ -227,8 +230,7 @@ def table(args):
     from . import table
     study = opened(args)
     study.require_analysis()
-    for path in table.write(study, study.progress(), _figures()):
-        print(f"navvi: written: {path}")
+    _written(study, *table.write(study, study.progress(), _figures()))
 
 
 @action(PLAN, argument("--accept-loss", metavar="TEXT", help="why the study goes on without the rows that its journal has lost."))
@@ -237,7 +239,8 @@ def verify(args):
 
     A line a trial: whether its files are as they were when it ended, by the sums in
     the study's journal, and whether journal, bag and the row of trials.csv are equal;
-    a line a participant: how many of the notes and answers are read.
+    a line a participant: how many of the notes and answers are read, and whether
+    the answers are those that were given.
 
     Where the journal has lost rows, nothing goes on until it is restored from a
     copy, or --accept-loss writes the reason. Then "study next" takes up trials and
@@ -250,13 +253,13 @@ def verify(args):
     from . import overview, verify
     study = _opened(args)
     if args.accept_loss is not None:
-        study.accept_loss(_reason(args.accept_loss))
+        study.accept_loss(_reason(args.accept_loss, "--accept-loss"))
     sentences, bad = verify.verify(study, study.progress(), TOOLS["tool"]("navvi_study", "count_trial"))
     lines, counts, lost = verify.notes_and_answers(study, study.progress())
     unrecorded = study.unrecorded()
     lines += [*overview.losses(study.progress()), *unrecorded.values()]
     print("\n".join([*sentences, *lines, f"{overview.counted(len(sentences), 'trial')}, {bad} differ.",
-                     f"{overview.counted(counts['notes'], 'note')} and {overview.counted(counts['answers'], 'answer')}, {lost} lost."]))
+                     f"{overview.counted(counts['notes'], 'note')} and {overview.counted(counts['answers'], 'answer')}, {lost} lost or changed."]))
     return 1 if bad or lost or unrecorded else 0
 
 
@@ -269,10 +272,13 @@ def export(args):
     Exit codes
     0: written. 2: a wrong plan, or a record that cannot be read.
     """
-    from . import export
+    from . import export, overview
     study = opened(args)
     study.require_analysis()
-    print(f"navvi: written: {export.write(study, study.progress(), export.way_of)}")
+    _written(study, export.write(study, study.progress(), export.way_of))
+    agreed = [*export.agreed(study, study.progress()).values()]
+    if left_out := agreed.count(False):
+        print(f"navvi: left out: {left_out} of {overview.counted(len(agreed), 'participant')}, without a yes to share in the consent.")
 
 
 @action(PLAN, ONLY, argument("--blind", action="store_true", help="write report-blind.html, with letters for the conditions, and no table."))
@@ -374,13 +380,21 @@ def _write_report(study, only, rehearsed):
     else:
         files.append(study.folder / f"{only}{'-blind' if study.letters else ''}.svg")
         write_safely(files[-1], figures.by_condition(measured, only))
-    for path in files:
+    _written(study, *files)
+
+
+def _written(study, *paths):
+    from . import overview, verify
+    for path in paths:
         print(f"navvi: written: {path}")
+    if count := verify.changed(study, study.progress()):
+        print(f"navvi: {overview.counted(count, 'trial')} with files that changed since the trial ended; "
+              f"\"./navvi study verify {study.plan.file}\" names them.")
 
 
-def _reason(words):
+def _reason(words, option="--reason"):
     from . import checked, journal
     try:
         return checked.text(journal.plain(words))
     except ValueError as allowed:
-        raise StudyError(f"--reason is \"{words}\"; allowed is {allowed}.") from None
+        raise StudyError(f"{option} is \"{words}\"; allowed is {allowed}.") from None

@@ -32,8 +32,8 @@ def write(study, progress, read_way):
                                                 "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})
     write_safely(folder / "README", f"{plan.title}\n\nA robot in a simulated warehouse, driven by a person who is guided by touch, speech and sounds. "
                  f"The acquisition (acq) is the condition. Plan: {plan.hash()}\n")
-    asked = plan.steps["consent"] and SHARE in [item.name for item in plan.steps["consent"].items]
-    rows = [row for row in table.trials(study, progress) if row["counts"] == "yes" and (not asked or study.agreed(row["participant"], SHARE))]
+    shared = agreed(study, progress)
+    rows = [row for row in table.trials(study, progress) if row["counts"] == "yes" and shared[row["participant"]]]
     people = {row["participant"]: [row["group"], *table.about(study, progress.people[row["participant"]]).values()] for row in rows}
     items = {f"person_{item.name}": {"Description": item.ask} for one in plan.steps["at_begin"] for item in one.items}
     _tsv(folder / "participants.tsv", ["participant_id", "group", *items], [[_subject(name), *cells] for name, cells in sorted(people.items())])
@@ -44,6 +44,14 @@ def write(study, progress, read_way):
         runs[key] = runs.get(key, 0) + 1
         _trial(folder, row, table.attempt_of(progress, row), runs[key], study, read_way)
     return folder
+
+
+def agreed(study, progress):
+    """By participant with a trial that counts: whether it is exported, as the person agreed to share or was not asked."""
+    consent = progress.plan.steps["consent"]
+    asked = consent and SHARE in [item.name for item in consent.items]
+    driven = {row["participant"] for row in table.trials(study, progress) if row["counts"] == "yes"}
+    return {name: not asked or study.agreed(name, SHARE) for name in driven}
 
 
 def _trial(folder, row, attempt, run, study, read_way):

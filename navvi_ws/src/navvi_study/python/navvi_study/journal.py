@@ -53,18 +53,20 @@ class Journal:
             return row
 
     def lost(self):
-        """The last row that was written, where it was lost, alone or with others; empty otherwise."""
+        """The rows that were written and lost, up to the last; empty where that is there."""
         with self._locked() as file:
             return self._lost(self._read(file))
 
     def lacks(self, row):
-        return f"{self.path} lacks {row}, which was written; restore it from a copy."
+        return f"{self.path} lacks {row}, written before; restore it from a copy."
 
     def _lost(self, rows):
-        for last in read_lines(self.last, {"seq": int, "type": str, "hash": str})[0]:
+        for last in read_lines(self.last, {"seq": int, "utc": str, "mono_ns": int, "type": str, "hash": str})[0]:
             if last["hash"] not in [row["hash"] for row in rows[last["seq"] - 1:last["seq"]]]:
                 what = " ".join(str(last[key]) for key in ("type", "participant", "step") if key in last)
-                return f"row {last['seq']} ({what})"
+                # Without rows that were written after the loss.
+                first = sum((row["utc"], row["mono_ns"]) <= (last["utc"], last["mono_ns"]) for row in rows) + 1
+                return f"row {last['seq']} ({what})" if first >= last["seq"] else f"rows {first} to {last['seq']} (the last: {what})"
         return ""
 
     @contextlib.contextmanager
@@ -180,16 +182,17 @@ def append_line(path, values):
         raise StudyError(f"{path} cannot be written: {problem.strerror}.") from None
 
 
-def read_lines(path, fields):
+def read_lines(path, fields, allowed=lambda row: True):
     """The rows that append_line() wrote whole, and the numbers of the lines that are none: unfinished when the power failed, or damaged.
-    \\param fields  the type of each by name"""
+    \\param fields  the type of each by name
+    \\param allowed  whether a row with them is one"""
     rows, skipped = [], []
     for number, line in enumerate(lines_of(path), 1):
         try:
             row = json.loads(line)
         except (ValueError, RecursionError):
             row = None
-        if isinstance(row, dict) and all(isinstance(row.get(name), kind) for name, kind in fields.items()):
+        if isinstance(row, dict) and all(isinstance(row.get(name), kind) for name, kind in fields.items()) and allowed(row):
             rows.append(row)
         elif line:
             skipped.append(number)

@@ -20,7 +20,8 @@ def schedule(plan):
             lines.append(f"  {name}: {' and '.join(f'{minutes:.0f}' for minutes in minutes_of(plan, name))} min. {shown}.")
     lines += ["", f"What {'a participant may do' if plan.order == 'drawn' else f'{plan.participants[0]} does'}:"]
     for step in steps_of(plan, plan.participants[0]):
-        lines.append(f"  {step.name}: {step}" + (f", {step.world}" if step.world else "") + (f", about {step.minutes:g} min" if step.minutes else ""))
+        minutes = f", about {round(step.minutes, 1):g} min" if step.minutes else ""
+        lines.append(f"  {step.name}: {step}" + (f", {step.world}" if step.world else "") + minutes)
     lines += ["", *balance(plan)]
     hours = sum(sum(minutes_of(plan, name)) for name in plan.participants) / 60
     lines.append(f"All together {hours:.1f} hours.")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import jinja2
 
-from . import figures, overview, preregistration, table, ways
+from . import figures, overview, preregistration, table, verify, ways
 from .analysis import Analysis
 from .measures import MEASURES, REACHED, RESAMPLES, number
 from .questionnaire import DECLINED
@@ -313,6 +313,7 @@ def quality(study, progress):
     return [["trials", len(rows)], ["messages missed", shown(total("missed_messages"))], ["safe stops", shown(total("safe_stop_count"))],
             ["bags", ", ".join(f"{state} {count}" for state, count in bags.items()) or "none"],
             ["versions of NavVI", ", ".join(f"{version} {count}" for version, count in versions.items()) or "none"],
+            ["trials whose tables changed since they ended", verify.changed(study, progress)],
             ["rows that the journal has lost", " ".join(overview.losses(progress)) or "none"],
             ["lines of notes and answers that cannot be read", sum(len(study.unread(name)) for name in progress.people)],
             ["interventions", shown(total("interventions"))], ["marks and notes", shown(total("marks"))],

@@ -13,6 +13,11 @@ from .study import write_safely
 
 DESK = "Enter after each. m: mark; n TEXT: note; i TEXT: you intervened; p: pause after this step; a: end the trial now."
 LONGEST = 1 << 16  # bytes of a line that is typed
+# Parameters of trials_bench: it has no voice, and so no other language; no frames, and no scans.
+REHEARSED = ("sim/", "person/", "trial/", *(f"{node}/{part}" for node, parts in {
+    "feedback": ("buttons/", "cues/", "drive/", "haptics/", "lead", "link/", "sounds/"),
+    "nav": ("alpha", "carve_", "guidance", "map_timeout", "mesh", "most_cylinders", "replan", "search", "smoothing", "stand_off"),
+    "perception": ("map/", "robot_radius", "tracks", "wall")}.items() for part in parts))
 
 
 def learnt_before(summaries):
@@ -189,8 +194,7 @@ class LoopRunner:
                    f"--profile={words.pop('profile')}", "--records=all"]
         words.update(person_of(participant, "person/"), **place_of(plan, participant, step, attempt))
         words.update({"trial/participant": participant, "trial/version": self.version})
-        parts = ("sim/", "nav/", "feedback/", "person/", "perception/", "trial/")
-        command += [f"{name}:={value}" for name, value in words.items() if name.startswith(parts) and not name.startswith(("feedback/speaker", "feedback/mixer"))]
+        command += [f"{name}:={value}" for name, value in words.items() if name.startswith(REHEARSED)]
         legs = plan.legs(attempt)
         for number, leg in enumerate(legs, 1):
             out = folder / f"leg-{number:02d}" if len(legs) > 1 else folder

@@ -91,7 +91,8 @@ class Session:
 
     def done(self, name, step, **fields):
         """The step is over. Returns True."""
-        self.study.journal.append("done", participant=name, step=step.name, **fields)
+        sums = {"answers": self.study.sum_of_answers(name, step.name)} if step.asks else {}
+        self.study.journal.append("done", participant=name, step=step.name, **fields, **sums)
         return True
 
 

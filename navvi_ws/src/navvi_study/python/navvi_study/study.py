@@ -18,7 +18,9 @@ from .errors import StudyError
 from .journal import Journal, append_line, lines_of, read_lines, sync_folder, utc_now
 from .plan import Group
 from .progress import Progress
+from .questionnaire import DECLINED
 from .record import summary_of
+from .schedule import steps_of
 
 # What each line of a participant's files holds at least.
 FIELDS = {
@@ -204,14 +206,20 @@ class Study:
     def add_answer(self, participant, step, item, answer, seconds="n/a"):
         append_line(self.home(participant) / "answers.jsonl", {
             "step": step.name, "condition": step.condition, "order": step.order, "session": step.session, "questionnaire": step.asks.name,
-            "item": item.name, "answer": answer, "seconds": seconds, "utc": utc_now()})
+            "item": item.name, "answer": answer, "seconds": seconds, "utc": utc_now(), "salt": secrets.token_hex(8)})
 
     def answers_of(self, participant, step):
         """By item's name."""
         return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name}
 
+    def sum_of_answers(self, participant, step):
+        """SHA-256 of the answers to a step, by its name. Without their salt, which is erased with them, nobody guesses the answers by it."""
+        rows, _ = read_lines(self.home(participant) / "answers.jsonl", FIELDS["answers"])
+        return hashlib.sha256(json.dumps([row for row in rows if row["step"] == step], sort_keys=True).encode()).hexdigest()
+
     def answers(self, participant):
-        return [dict(row, condition=self.letters.get(row["condition"], row["condition"])) for row in self.lines(participant, "answers")[0]]
+        return [{**{name: cell for name, cell in row.items() if name != "salt"}, "condition": self.letters.get(row["condition"], row["condition"])}
+                for row in self.lines(participant, "answers")[0]]
 
     def agreed(self, participant, item):
         """Whether the last answer to the item of the consent is yes."""
@@ -226,13 +234,21 @@ class Study:
         return self.lines(participant, "notes")[0]
 
     def lines(self, participant, kind):
-        """Rows of the participant's notes or answers, and the numbers of the lines of the file that cannot be read."""
-        return read_lines(self.home(participant) / f"{kind}.jsonl", FIELDS[kind])
+        """Rows of the participant's notes or answers, and the numbers of the lines of the file that cannot be read, or whose item does not
+        allow the answer."""
+        asked = {step.asks for step in steps_of(self.plan, participant) if step.asks}
+        items = {(one.name, item.name): item for one in asked for item in one.items}
+
+        def allowed(row):
+            item = items.get((row["questionnaire"], row["item"])) if kind == "answers" else None
+            return not item or row["answer"] in (DECLINED, *item.values())
+        return read_lines(self.home(participant) / f"{kind}.jsonl", FIELDS[kind], allowed)
 
     def unread(self, participant):
         """A sentence for each line of notes or answers that was passed over."""
-        return [f"{self.home(participant) / kind}.jsonl:{number}: the line is damaged or unfinished, and is passed over."
-                for kind in FIELDS for number in self.lines(participant, kind)[1]]
+        return [f"{self.home(participant) / kind}.jsonl:{number}: the line is damaged or unfinished{more}; it is passed over."
+                for kind, more in (("notes", ""), ("answers", ", or its item does not allow the answer"))
+                for number in self.lines(participant, kind)[1]]
 
     def attempt_folder(self, participant, step, number):
         return self.home(participant) / f"{step}-a{number}"
@@ -253,7 +269,10 @@ class Study:
         """What was to be deleted is deleted, also after a crash amid that."""
         for person in self.progress().people.values():
             if person.withdrawn == "delete" and not person.erased:
-                shutil.rmtree(self.home(person.name), ignore_errors=True)
+                for path in (self.home(person.name), self.folder / "bids"):
+                    shutil.rmtree(path, ignore_errors=True)
+                for name in ("trials", "answers", "events"):
+                    (self.folder / f"{name}.csv").unlink(missing_ok=True)
                 if self.home(person.name).exists():
                     raise StudyError(f"{self.home(person.name)} cannot be deleted, and the withdrawal asks for it; delete it.")
                 self.journal.append("erased", participant=person.name)

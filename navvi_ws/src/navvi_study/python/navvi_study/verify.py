@@ -25,9 +25,19 @@ def verify(study, progress, count_trial):
     return sentences, bad
 
 
+def changed(study, progress):
+    """How many trials have a table, such as summary.csv, that is not as it was when they ended. Bags, which take long, are left to verify()."""
+    found = 0
+    for row in table.trials(study, progress, strict=False):
+        attempt = table.attempt_of(progress, row)
+        folder = study.attempt_folder(row["participant"], attempt.step, attempt.number) / row["trial"]
+        found += _files(folder, {name: known for name, known in attempt.legs[row["trial"]].items() if name.endswith(".csv")}).startswith("differ")
+    return found
+
+
 def notes_and_answers(study, progress):
-    """A sentence a participant, and one for each line that cannot be read; then how many lines there are of each kind, and how many of them
-    are in no table."""
+    """A sentence a participant, and one for each line that cannot be read and each step whose answers are not those that were given; then
+    how many lines there are of each kind, and how many lines and steps these sentences name."""
     sentences, counts, lost = [], dict.fromkeys(FIELDS, 0), 0
     for name, person in progress.people.items():
         if not person.begun or person.withdrawn == "delete":
@@ -37,7 +47,10 @@ def notes_and_answers(study, progress):
             counts[kind] += len(rows) + len(skipped)
             lost += len(skipped)
         sentences.append(f"{name}: " + ", ".join(f"{kind} {len(rows)} of {len(rows) + len(skipped)}" for kind, (rows, skipped) in found.items()) + ".")
+        changed = [step for step, row in person.done.items() if "answers" in row and row["answers"] != study.sum_of_answers(name, step)]
+        lost += len(changed)
         sentences += study.unread(name)
+        sentences += [f"{name} {step}: the answers are not those that were given, by their sum in the journal." for step in changed]
     return sentences, counts, lost
 
 
@@ -52,7 +65,7 @@ def _journal(program, folder):
     if not (folder / "journal.csv").is_file():
         return "no journal"
     result = subprocess.run([str(program), "journal", str(folder)], capture_output=True, errors="replace", check=False)
-    return EQUAL if result.returncode == 0 else "differs: " + "; ".join((result.stderr or result.stdout).strip().splitlines()[-3:])
+    return EQUAL if result.returncode == 0 else "differs: " + _clauses((result.stderr or result.stdout).splitlines()[-3:])
 
 
 def _bag(program, folder, row):
@@ -65,7 +78,12 @@ def _bag(program, folder, row):
     said, end = (result.stderr or result.stdout).strip(), Record(folder).first("TRIAL_END")
     if "the bag does not hold the trial's end" in said and end and end.fields.get("reason") in RECOVERED:
         return "no end, as the trial's record broke off"
-    return EQUAL if result.returncode == 0 else "differs: " + "; ".join(said.splitlines()[:3])
+    return EQUAL if result.returncode == 0 else "differs: " + _clauses(said.splitlines()[:3])
+
+
+def _clauses(lines):
+    """Of a sentence: without the ends of their own."""
+    return "; ".join(line.strip().rstrip(".") for line in lines)
 
 
 def _table(study, row, attempt):
