@@ -127,10 +127,12 @@ std::vector<Thing> LayoutGoods::left_behind(Random random, const LayoutTraffic& 
   add_standing_workers(things, random, places);
   for (const Place& place : places) {
     const double kind = random.uniform(0.0, 1.0);
-    if (kind < config_.pallets)
-      add_pallet(things, random, {place.x(kPalletRoom), place.y}, random.uniform(-0.06, 0.06),
-                 random.chance(0.6));
-    else if (kind < config_.pallets + config_.pedestals)
+    if (kind < config_.pallets) {
+      // Drawn one after the other: compilers differ in the order of arguments.
+      const bool loaded = random.chance(0.6);
+      const double askew = random.uniform(-0.06, 0.06);
+      add_pallet(things, random, {place.x(kPalletRoom), place.y}, askew, loaded);
+    } else if (kind < config_.pallets + config_.pedestals)
       add_pedestal(things, random, place);
     else if (kind < config_.pallets + config_.pedestals + config_.clutter)
       add_boxes(things, random, place);
