@@ -262,7 +262,7 @@ def test_ctrl_c_while_a_session_starts_ends_it(after, session):
     begun.wait_until(lambda: "In a second terminal" in begun.text(), 60, "it tells what to do")
     time.sleep(after)
     begun.end()
-    text = begun.wait_until_ended(25 * slow())  # roslaunch waits 15 s for a node whose roscpp was amid its start
+    text = begun.wait_until_ended(12 * slow())  # roslaunch waits 15 s for a node that has lost its signal
     assert "stopped by Ctrl-C" in text and "has begun" not in text.partition("stopped by Ctrl-C")[2]
 
 

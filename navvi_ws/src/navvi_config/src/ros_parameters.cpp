@@ -3,6 +3,7 @@
 #include <XmlRpcValue.h>
 #include <ros/callback_queue.h>
 #include <ros/init.h>
+#include <ros/master.h>
 #include <ros/param.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
@@ -20,7 +21,6 @@ constexpr rlim_t kFiles = 256;
 constexpr rlim_t kMemory = rlim_t{4} << 30U;  // bytes
 
 std::atomic<bool> g_name_taken{false}, g_asked{false};
-bool g_has_last_messages = false;
 volatile std::sig_atomic_t g_ending = 0;
 
 YAML::Node to_yaml(XmlRpc::XmlRpcValue& value) {
@@ -75,12 +75,18 @@ void ask_for_priority(int niceness) {
   std::ofstream("/proc/self/autogroup") << niceness;
 }
 
-void init_with_last_messages(int& argc, char** argv, const std::string& name) {
-  g_has_last_messages = true;
+void init(int& argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
     if (std::signal(signal, [](int) { end(); }) == SIG_IGN && signal == SIGHUP)
       std::signal(signal, SIG_IGN);  // by nohup
+}
+
+bool await_master() {
+  if (!ros::master::check())
+    ROS_WARN("Waiting for the ROS master at %s.", ros::master::getURI().c_str());
+  while (!ending() && !ros::master::check()) ros::WallDuration(0.2).sleep();
+  return !ending();
 }
 
 void end() { g_ending = 1; }
@@ -107,7 +113,7 @@ void end_on_request() {
           ROS_FATAL("Another node has taken the name %s, so this one ends.",
                     ros::this_node::getName().c_str());
         g_asked = true;
-        g_has_last_messages ? end() : ros::requestShutdown();
+        end();
         answer = ros::xmlrpc::responseInt(1, "", 0);
       });
 }

@@ -41,7 +41,7 @@ struct Wheels {
 
 int main(int argc, char** argv) {
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
-  navvi_config::init_with_last_messages(argc, argv, "relay_node");
+  navvi_config::init(argc, argv, "relay_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;
     navvi_safety::CommandGate gate(config.gate);

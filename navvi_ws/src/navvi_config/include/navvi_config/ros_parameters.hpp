@@ -30,8 +30,8 @@ template <typename Config>
 /// hangs without a word
 void allow_files();
 
-/// To 4 GB: roscpp makes an array as long as a message says before it looks for its content, and then
-/// drops a message for which there is no memory.
+/// To 4 GB: roscpp makes an array as long as a message says before it looks for its content, and
+/// then drops a message for which there is no memory.
 void limit_memory();
 
 /// Asks the system to run this program before others, so that a busy machine delays neither motors
@@ -40,10 +40,13 @@ void limit_memory();
 /// \param niceness  [-20, -1], of which -20 goes first
 void ask_for_priority(int niceness);
 
-/// ros::init for a node with last messages: Ctrl-C, SIGTERM, SIGHUP, SIGQUIT and a request by XML-RPC
-/// end spin(), where roscpp would close the topics at once.
-void init_with_last_messages(int& argc, char** argv, const std::string& name);
-void end();  ///< ends spin()
+/// ros::init, but Ctrl-C, SIGTERM, SIGHUP, SIGQUIT and a request by XML-RPC end spin(), where
+/// roscpp would close the topics before the last messages, and lose a signal that comes while it
+/// starts.
+void init(int& argc, char** argv, const std::string& name);
+/// \return whether there is a master: roscpp waits for it where no signal ends the wait
+[[nodiscard]] bool await_master();
+void end();  ///< ends both waits
 [[nodiscard]] bool ending();
 void spin();  ///< handles callbacks until then
 /// Lets the messages that were published leave.
@@ -56,12 +59,16 @@ void end_on_request();
 /// Whether it was asked to end, or its name taken: the session goes on without it.
 [[nodiscard]] bool ends_alone();
 
-/// The rest of a node's main() after ros::init: runs `body` with the parameters, and ends with the
+struct NoParameters {
+  void describe(Visitor& /*visit*/) {}
+};
+
+/// The rest of a node's main() after init(): runs `body` with the parameters, and ends with the
 /// roslaunch that started it. An exception is logged as a fatal error. What the node writes is its
 /// owner's alone.
 /// \param body  takes a Config, returns the exit code
-/// \return the exit code: 2 if a parameter is rejected, 3 after any other exception or where another
-/// node has taken the name
+/// \return the exit code: 2 if a parameter is rejected, 3 after any other exception or where
+/// another node has taken the name
 template <typename Config, typename Body>
 [[nodiscard]] int run_node(const Body& body) {
   end_with_launcher();
@@ -71,6 +78,7 @@ template <typename Config, typename Body>
   try {
     allow_files();
     limit_memory();
+    if (!await_master()) return 0;
     alive.emplace();
     end_on_request();
     const int code = body(load<Config>(ros::NodeHandle("~")));

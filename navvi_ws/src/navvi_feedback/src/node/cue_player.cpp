@@ -104,10 +104,10 @@ class CuePlayer {
 int main(int argc, char** argv) {
   using navvi_feedback::node::PlayerConfig;
   if (const auto code = navvi_config::print_parameters<PlayerConfig>(argc, argv)) return *code;
-  ros::init(argc, argv, "cue_player");
+  navvi_config::init(argc, argv, "cue_player");
   return navvi_config::run_node<PlayerConfig>([](const PlayerConfig& config) {
     const navvi_feedback::node::CuePlayer player(config);
-    ros::spin();
+    navvi_config::spin();
     return 0;
   });
 }

@@ -164,15 +164,6 @@ class FeedbackNode {
   double last_tick_ = 0.0;  // s, of now()
 };
 
-/// roscpp waits for the master where no signal reaches it; so wait here first.
-/// \return false if the wait was ended by a signal
-bool await_master() {
-  if (!ros::master::check())
-    ROS_WARN("Waiting for the ROS master at %s.", ros::master::getURI().c_str());
-  while (!navvi_config::ending() && !ros::master::check()) ros::WallDuration(0.2).sleep();
-  return !navvi_config::ending();
-}
-
 void spin(FeedbackNode& node) {
   navvi_config::spin();
   if (!ros::ok()) return;
@@ -198,9 +189,7 @@ int main(int argc, char** argv) {
           }))
     return *code;
   navvi_config::ask_for_priority(-10);
-  navvi_config::init_with_last_messages(argc, argv, "feedback_node");
-  navvi_config::end_with_launcher();
-  if (!navvi_feedback::node::await_master()) return 0;
+  navvi_config::init(argc, argv, "feedback_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     navvi_feedback::node::FeedbackNode node(config);
     navvi_feedback::node::spin(node);

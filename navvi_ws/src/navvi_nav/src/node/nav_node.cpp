@@ -342,11 +342,11 @@ int main(int argc, char** argv) {
   };
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv, check)) return *code;
   navvi_config::ask_for_priority(-5);
-  ros::init(argc, argv, "nav_node");
+  navvi_config::init(argc, argv, "nav_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;
     const navvi_nav::node::NavNode nav(node, config);
-    ros::spin();
+    navvi_config::spin();
     return 0;
   });
 }

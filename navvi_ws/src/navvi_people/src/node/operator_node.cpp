@@ -32,7 +32,7 @@ double now() { return ros::Time::now().toSec(); }
 
 int main(int argc, char** argv) {
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
-  ros::init(argc, argv, "operator_node");
+  navvi_config::init(argc, argv, "operator_node");
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     ros::NodeHandle node;
     // The person speaks the language of the session.
@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
           last = time;
           joy.publish(navvi_people::node::to_msg(hand, ros::Time::now()));
         });
-    ros::spin();
+    navvi_config::spin();
     return 0;
   });
 }

@@ -381,14 +381,14 @@ class PerceptionNode {
 int main(int argc, char** argv) {
   using navvi_perception::node::NodeConfig;
   if (const auto code = navvi_config::print_parameters<NodeConfig>(argc, argv)) return *code;
-  ros::init(argc, argv, "perception_node");
+  navvi_config::init(argc, argv, "perception_node");
   return navvi_config::run_node<NodeConfig>([](NodeConfig config) {
     ros::NodeHandle node;
     // One height for what stands, what is near, and what the path leads under.
     config.core.set_robot_height(
         ros::param::param("nav_node/mesh/robot_height", navvi_types::kHeadroom));
     const navvi_perception::node::PerceptionNode perception(node, config);
-    ros::spin();
+    navvi_config::spin();
     return 0;
   });
 }

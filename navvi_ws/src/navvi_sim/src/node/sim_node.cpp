@@ -4,7 +4,6 @@
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
 
-#include <csignal>
 #include <map>
 #include <navvi_config/ros_parameters.hpp>
 #include <navvi_safety/command_input.hpp>
@@ -122,7 +121,7 @@ class SimNode {
                 world().now().time);
       exit_code_ = 3;
       timer_.stop();
-      ros::requestShutdown();
+      navvi_config::end();
       return false;
     }
     outlets_->publish_state();
@@ -163,7 +162,7 @@ class SimNode {
 int run(const setup::SimNodeConfig& config) try {
   read::LoadedWorld loaded = setup::load_world(config);
   const SimNode sim(config, std::move(loaded));
-  ros::spin();
+  navvi_config::spin();
   return sim.exit_code();
 } catch (const WorldError& error) {
   throw navvi_config::ConfigError(error.what());
@@ -176,7 +175,6 @@ int main(int argc, char** argv) {
   using navvi_sim::setup::SimNodeConfig;
   if (const auto code = navvi_config::print_parameters<SimNodeConfig>(argc, argv)) return *code;
   navvi_config::ask_for_priority(-10);
-  ros::init(argc, argv, "sim_node");
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
+  navvi_config::init(argc, argv, "sim_node");
   return navvi_config::run_node<SimNodeConfig>(navvi_sim::node::run);
 }

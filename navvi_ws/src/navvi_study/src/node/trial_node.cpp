@@ -265,7 +265,7 @@ class TrialNode {
 int main(int argc, char** argv) {
   using navvi_study::trial::TrialNodeConfig;
   if (const auto code = navvi_config::print_parameters<TrialNodeConfig>(argc, argv)) return *code;
-  navvi_config::init_with_last_messages(argc, argv, "trial_node");
+  navvi_config::init(argc, argv, "trial_node");
   ::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error of write(), as any other
   return navvi_config::run_node<TrialNodeConfig>([](const TrialNodeConfig& config) {
     navvi_study::node::TrialNode trials(config);

@@ -5,6 +5,7 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include <cmath>
+#include <navvi_config/ros_parameters.hpp>
 #include <navvi_sim/scene/scene.hpp>
 
 #include "recount/repetition.hpp"
@@ -49,16 +50,18 @@ class ScenePlayer {
 }  // namespace navvi_study::tool
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "scene_player");
+  navvi_config::init(argc, argv, "scene_player");
   if (argc != 2) {
     std::fprintf(stderr, "usage: scene_player BAG\n");
     return 2;
   }
-  try {
-    const navvi_study::tool::ScenePlayer player(argv[1]);
-    ros::spin();
-  } catch (const std::exception& error) {
-    ROS_WARN("The picture lacks the moving things: %s.", error.what());
-  }
-  return 0;
+  return navvi_config::run_node<navvi_config::NoParameters>([&](auto&) {
+    try {
+      const navvi_study::tool::ScenePlayer player(argv[1]);
+      navvi_config::spin();
+    } catch (const std::exception& error) {
+      ROS_WARN("The picture lacks the moving things: %s.", error.what());
+    }
+    return 0;
+  });
 }
