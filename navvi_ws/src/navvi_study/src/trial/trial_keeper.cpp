@@ -214,6 +214,7 @@ void TrialKeeper::wait() {
 }
 
 void TrialKeeper::arm() {
+  kept_.folder.clear();
   try {
     kept_.folder = record::create_trial_folder(config_.out, now_.utc_ns / kSecond);
     kept_.journal = std::make_unique<record::Journal>(
@@ -221,7 +222,7 @@ void TrialKeeper::arm() {
     kept_.track = std::make_unique<record::TrackFile>(kept_.folder, calls_);
   } catch (const std::runtime_error& error) {
     tell(Tone::fatal, error.what());
-    return leave(3);
+    return abandon(3);
   }
   kept_.bag = BagWatch(
       config_.record != "none" ? outlets_.start_recorder(kept_.folder / "trial.bag") : nullptr,

@@ -436,6 +436,23 @@ TEST_F(Trials, of_a_job_in_a_study_lead_to_each_place_once_and_end_where_one_bre
   }
 }
 
+TEST_F(Trials, L1_that_cannot_be_recorded_leave_no_folder_and_no_harm_to_another) {
+  config_.once = false;
+  begin();
+  live(1.0);
+  keeper_->take_goal({3.0, 0.0}, now());
+  live(1.0, State::following, {3.0, 0.0});
+  while (!happened("BAG_CLOSED")) live(0.05, State::arrived, {3.0, 0.0});
+  failures_ = 100;
+  error_ = ENOSPC;
+  live(9.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 3);
+  EXPECT_TRUE(said("No space left on device"));
+  ASSERT_EQ(folders().size(), 1U);
+  EXPECT_TRUE(holds("summary.csv", "reached"));
+}
+
 TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   config_.require = {"speech"};
   offer();
