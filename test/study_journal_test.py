@@ -72,8 +72,10 @@ def killed_at_once():
 
 SHORTER = {"within a row": lambda lines: lines[:1] + [lines[1][:9]], "by two rows": lambda lines: lines[:-2], "to nothing": lambda lines: [], "by all but its first row": lambda lines: lines[:1]}
 
+WAYS = [*((True, how) for how in SHORTER), (False, "by two rows"), (False, "within a row"), (False, "to nothing")]
 
-@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "by two rows"), (False, "within a row"), (False, "to nothing")])
+
+@pytest.mark.parametrize("with_last, how", WAYS)
 def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch, capsys, with_last, how):
     for name, path in ("version", "test"), ("tool", "true"):
         monkeypatch.setitem(actions.TOOLS, name, lambda *given, path=path: path)
@@ -85,7 +87,8 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     kept.journal.path.write_bytes(b"".join(SHORTER[how](whole.splitlines(keepends=True))))
     if not with_last:
         kept.journal.last.unlink()
-    named = "done sub-01 s1-end" if with_last else {"by two rows": "lacks journal.last", "within a row": str(trial_of_first(kept)), "to nothing": str(kept.frozen_file)}[how]
+    named = "done sub-01 s1-end" if with_last else {
+        "by two rows": "lacks journal.last", "within a row": str(trial_of_first(kept)), "to nothing": str(kept.frozen_file)}[how]
     for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
         with pytest.raises(StudyError) as problem:
             action(args)
@@ -104,7 +107,7 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
         actions.verify(words(kept, accept_loss=""))
 
 
-@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "by two rows"), (False, "within a row"), (False, "to nothing")])
+@pytest.mark.parametrize("with_last, how", WAYS)
 def test_a_loss_that_is_accepted_is_named_and_nothing_is_driven_or_asked_again(work, monkeypatch, capsys, with_last, how):
     monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
     rest(work("aborted"))
@@ -243,7 +246,8 @@ def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
 
 @pytest.mark.parametrize("damage", [
     lambda data: data[:len(data) // 3], lambda data: data[:-1], lambda data: data.replace(b"reached", b"r\xffached"),
-    lambda data: data.replace(b"elapsed_s", b"elapsed_z"), None], ids=["cut", "no end", "bytes", "title", "missing"])
+    lambda data: data.replace(b"elapsed_s", b"elapsed_z"), lambda data: data.replace(b"n/a", b'"n"/a'),
+    lambda data: data.replace(b",10.0\n", b"\n"), None], ids=["cut", "no end", "bytes", "title", "quotes", "cell", "missing"])
 def test_a_trial_whose_summary_is_damaged_stops_the_report_until_it_is_excluded(work, monkeypatch, damage):
     monkeypatch.setattr(actions, "_figures", lambda: [])
     rest(work())
@@ -255,7 +259,8 @@ def test_a_trial_whose_summary_is_damaged_stops_the_report_until_it_is_excluded(
         with pytest.raises(StudyError, match=f"{path} .*study exclude {args.plan} sub-01/{attempt.trial} --reason"):
             action(args)
     sentences, bad = verify.verify(work.study, work.study.progress(), "true")
-    assert bad == 1 and "files differ: summary.csv" in sentences[0] and "table differs: summary.csv is missing or damaged" in sentences[0]
+    assert bad == verify.changed(work.study, work.study.progress()) == 1
+    assert "files differ: summary.csv" in sentences[0] and "table differs: summary.csv is missing or damaged" in sentences[0]
     actions.exclude(exclusion(work.study, f"sub-01/{attempt.trial}", "its summary is lost"))
     rows = table.trials(work.study, work.study.progress())
     assert [(row["counts"], row["excluded"], "result" in row) for row in rows] == [("no", "its summary is lost", False), ("yes", "n/a", True)]
