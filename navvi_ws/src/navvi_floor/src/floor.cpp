@@ -15,7 +15,7 @@ constexpr double kRounding = 1e-6;   // cells, or steps
 double distance_to_box(Point p, Point low, Point high) {
   const double dx = std::max({low.x - p.x, 0.0, p.x - high.x});
   const double dy = std::max({low.y - p.y, 0.0, p.y - high.y});
-  return std::hypot(dx, dy);
+  return norm({dx, dy});
 }
 
 bool crosses_box(Point a, Point b, Point low, Point high) {
@@ -273,7 +273,7 @@ double Floor::clearance(Point point, double most) const {
     for (int x = at.x - window; x <= at.x + window; x += stride({x, y})) {
       const double dx = std::max({x * cell_size_ - point.x, 0.0, point.x - (x + 1) * cell_size_});
       if (dx > far || ground({x, y}) == Ground::floor) continue;
-      best = std::min(best, std::hypot(dx, dy));
+      best = std::min(best, norm({dx, dy}));
       far = std::min(far, best);
     }
   }

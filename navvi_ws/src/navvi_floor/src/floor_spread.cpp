@@ -139,7 +139,7 @@ class Spread {
     Treads found{};
     const int x = from % field_.width();
     const int y = from / field_.width();
-    const double longest = climbing_.longest_tread / std::hypot(heading.x, heading.y);
+    const double longest = climbing_.longest_tread / norm({heading.x, heading.y});
     std::size_t count = 0;
     for (int step = 1, begin = 0; step - begin <= longest; ++step) {
       const int ahead_x = x + static_cast<int>(std::lround(step * heading.x));
@@ -202,8 +202,8 @@ class Spread {
     const double a = sxx - sx * sx / n, b = sxy - sx * sy / n, c = syy - sy * sy / n;
     const double p = sxh - sx * sh / n, q = syh - sy * sh / n;
     const double det = a * c - b * b;
-    if (det < 1e-6) return std::max(a, c) > 0.5 && std::hypot(p, q) >= kSteep * std::max(a, c);
-    return std::hypot(p * c - q * b, q * a - p * b) >= kSteep * det;
+    if (det < 1e-6) return std::max(a, c) > 0.5 && norm({p, q}) >= kSteep * std::max(a, c);
+    return norm({p * c - q * b, q * a - p * b}) >= kSteep * det;
   }
 
   std::vector<Ground>& ground_;

@@ -14,7 +14,7 @@ std::vector<Cylinder> cylinders_of(const MovingThing& thing, int most) {
   if (!(slimmer > 0.0)) return {one};
   const int count = static_cast<int>(std::min(std::ceil(longer / slimmer), 1.0 * most));
   const double piece = longer / count;
-  const double radius = std::hypot(slimmer, piece) / 2.0;
+  const double radius = navvi_floor::norm({slimmer, piece}) / 2.0;
   if (count < 2 || radius >= one.radius) return {one};
   const Point middle = one.center;
   const double along = thing.pose.yaw + (thing.length >= thing.width ? 0.0 : kPi / 2);

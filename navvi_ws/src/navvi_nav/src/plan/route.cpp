@@ -47,7 +47,7 @@ bool obstacle_within(const map::Floor& floor, Point point, double distance) {
   for (int y = low.y; y <= high.y; ++y)
     for (int x = low.x; x <= high.x; ++x)
       if (floor.ground({x, y}) == map::Ground::obstacle &&
-          std::hypot(off(point.x, x), off(point.y, y)) < distance)
+          navvi_floor::norm({off(point.x, x), off(point.y, y)}) < distance)
         return true;
   return false;
 }

@@ -115,7 +115,7 @@ std::vector<Eigen::Vector3d> hull_points(const Geometry& geometry) {
 
 double yaw_of(const Eigen::Isometry3d& pose) {
   const Eigen::Vector3d x = pose.linear().col(0);
-  return std::hypot(x.x(), x.y()) > 1e-9 ? std::atan2(x.y(), x.x()) : 0.0;
+  return x.head<2>().norm() > 1e-9 ? std::atan2(x.y(), x.x()) : 0.0;
 }
 
 Eigen::Quaterniond tilt_of(const Eigen::Isometry3d& pose) {
@@ -163,7 +163,7 @@ navvi_types::MovingThing extent_of(const Footprint& print) {
   const double length = 2.0 * std::max(print.front, print.back);
   const double width = 2.0 * print.side;
   if (length * width >= kPi * print.radius * print.radius) return extent;
-  extent.radius = std::max(print.radius, 0.5 * std::hypot(length, width));
+  extent.radius = std::max(print.radius, 0.5 * Eigen::Vector2d(length, width).norm());
   extent.length = length;
   extent.width = width;
   return extent;

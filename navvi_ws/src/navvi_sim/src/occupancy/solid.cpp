@@ -115,11 +115,10 @@ SolidCylinder::SolidCylinder(const Cylinder& cylinder, const Eigen::Isometry3d& 
 Overlap SolidCylinder::overlap_upright(const Eigen::Vector3d& centre, double half) const {
   const double reach = cylinder_.length / 2.0;
   if (nearest(centre.z(), half) > reach) return Overlap::none;
-  if (std::hypot(nearest(centre.x(), half), nearest(centre.y(), half)) > cylinder_.radius)
-    return Overlap::none;
-  const bool full =
-      farthest(centre.z(), half) <= reach &&
-      std::hypot(farthest(centre.x(), half), farthest(centre.y(), half)) <= cylinder_.radius;
+  const Eigen::Vector2d near(nearest(centre.x(), half), nearest(centre.y(), half));
+  if (near.norm() > cylinder_.radius) return Overlap::none;
+  const Eigen::Vector2d far(farthest(centre.x(), half), farthest(centre.y(), half));
+  const bool full = farthest(centre.z(), half) <= reach && far.norm() <= cylinder_.radius;
   return full ? Overlap::full : Overlap::partial;
 }
 

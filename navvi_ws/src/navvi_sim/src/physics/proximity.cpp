@@ -44,7 +44,7 @@ class NearestPoint {
     // A ball around the hull serves where the mesh is tilted.
     const Eigen::Vector3d centre = to_local * Eigen::Vector3d(hull_.centre.x(), hull_.centre.y(),
                                                               0.5 * (hull_.bottom + hull_.top));
-    const double around = std::hypot(hull_.radius, 0.5 * height);
+    const double around = Eigen::Vector2d(hull_.radius, 0.5 * height).norm();
     triangles.search(
         [&](const Eigen::AlignedBox3d& box) {
           return upright ? local.bound(box) : std::max(0.0, box.exteriorDistance(centre) - around);

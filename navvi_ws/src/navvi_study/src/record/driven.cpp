@@ -117,7 +117,7 @@ Stands stands_of(const Trial& trial) {
       found.since = since - trial.begin();
       longest = &row;
     }
-    if (std::hypot(row.x - stay->x, row.y - stay->y) <= kStay) continue;
+    if (Eigen::Vector2d(row.x - stay->x, row.y - stay->y).norm() <= kStay) continue;
     stay = &row;
     since = row.time;
   }

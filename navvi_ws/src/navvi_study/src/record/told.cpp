@@ -148,7 +148,7 @@ class Compass {
     for (; next_ < trial_.track.size() && trial_.track[next_].time <= row.time; ++next_) {
       if (next_ == 0) continue;
       const TrackRow &a = trial_.track[next_ - 1], &b = trial_.track[next_];
-      driven_ += std::hypot(b.x - a.x, b.y - a.y);
+      driven_ += Eigen::Vector2d(b.x - a.x, b.y - a.y).norm();
     }
     return driven_;
   }
@@ -156,7 +156,7 @@ class Compass {
     if (said_.hour != now.hour) ++found_.turns;
     const double apart = std::abs(navvi_types::wrap(now.course - said_.course));
     const double since = now.time - said_.time;
-    const bool same_place = std::hypot(now.x - said_.x, now.y - said_.y) < kSamePlace;
+    const bool same_place = Eigen::Vector2d(now.x - said_.x, now.y - said_.y).norm() < kSamePlace;
     // Whoever has come to a corner is rightly sent elsewhere.
     if (!corner && since < kJustBefore && same_place && apart > kContrary) ++found_.flips;
     if (!corner && !new_way && since < kSoon && apart > kReversed) ++found_.reversed;

@@ -154,7 +154,7 @@ std::vector<Event> TrialMonitor::observe(const Odometry& odometry) {
   if (driven_.odometry && odometry.stamp <= driven_.odometry->stamp) return {};
   if (driven_.odometry) {
     const Eigen::Vector2d moved = odometry.pose.position - driven_.odometry->pose.position;
-    tally_.path_length += std::hypot(moved.x(), moved.y());
+    tally_.path_length += moved.norm();
     const double turned = navvi_types::wrap(odometry.pose.yaw - driven_.first_yaw);
     tally_.turned = std::max(tally_.turned, std::abs(turned));
   } else {

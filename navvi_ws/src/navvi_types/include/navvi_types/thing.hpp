@@ -69,7 +69,8 @@ struct MovingThing {
   /// True if there is no rectangle, or it has two sides and lies within the cylinder.
   [[nodiscard]] bool sound() const {
     if (length == 0.0 && width == 0.0) return true;
-    return length > 0.0 && width > 0.0 && std::hypot(length, width) / 2.0 <= radius + kSticksOut;
+    return length > 0.0 && width > 0.0 &&
+           Eigen::Vector2d(length, width).norm() / 2.0 <= radius + kSticksOut;
   }
 };
 
