@@ -314,7 +314,7 @@ std::vector<Figure> all_figures() {
   // Where the trial stands in a study, and on what it ran.
   for (const char* name : {"study", "plan", "group", "condition", "condition_order", "phase",
                            "session", "repeat", "attempt", "replaces", "cpu", "compiler", "bullet",
-                           "audio_device", "voice", "pad_name"})
+                           "libm", "audio_device", "voice", "pad_name"})
     all.push_back({name, "", "as TRIAL_START has it", "", as_begun(name), stated});
   const std::vector<Figure> counted_ones = {
       {"started_utc", "", "ISO 8601", "", as_begun("utc"), stated},

@@ -10,6 +10,7 @@
 
 #include "record/figures.hpp"
 #include "recount/repetition.hpp"
+#include "trial/conditions.hpp"
 
 namespace {
 
@@ -61,6 +62,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "This trial cannot be repeated: %s.\n", answer.text.c_str());
     return 2;
   }
+  const bool equal = answer.text.rfind("equal", 0) == 0;
+  for (const auto& [name, here] : study::trial::computer())
+    if (const auto there = study::record::cell_of(*summary, name);
+        !equal && !there.empty() && there != here)
+      std::printf("It was recorded with another %s: %s; here it is %s.\n", name.c_str(),
+                  there.c_str(), here.c_str());
   std::printf("%s\n", answer.text.c_str());
-  return answer.text.rfind("equal", 0) == 0 ? 0 : 1;
+  return equal ? 0 : 1;
 }

@@ -1,6 +1,7 @@
 #include "trial/conditions.hpp"
 
 #include <elf.h>
+#include <gnu/libc-version.h>
 #include <link.h>
 
 #include <algorithm>
@@ -81,6 +82,18 @@ std::string processor() {
   return "n/a";
 }
 
+std::vector<std::pair<std::string, std::string>> computer() {
+#ifdef __x86_64__
+  const bool fuses = __builtin_cpu_supports("fma") != 0;
+#else
+  const bool fuses = true;
+#endif
+  return {{"cpu", processor()},
+          {"compiler", kCompiler},
+          {"bullet", BULLET_VERSION},
+          {"libm", std::string("glibc ") + ::gnu_get_libc_version() + (fuses ? " FMA" : "")}};
+}
+
 std::optional<std::string> build_ids() {
   std::string ids;
   if (::dl_iterate_phdr(add_build_id, &ids) != 0) return std::nullopt;
@@ -100,7 +113,7 @@ void add_conditions(record::Fields& fields, const TrialNodeConfig& config,
   for (const auto& [name, value] : settings) words.push_back(name + "=" + value);
   fields.set("settings", boost::algorithm::join(words, " "));
   if (!phrases.empty()) fields.set("phrases", phrases);
-  fields.set("cpu", processor()).set("compiler", kCompiler).set("bullet", BULLET_VERSION);
+  for (const auto& [name, value] : computer()) fields.set(name, value);
   set_study(fields, config.study);
   fields.set("goal_x", start.goal.x(), 6).set("goal_y", start.goal.y(), 6);
   fields.set("limit", config.limit);

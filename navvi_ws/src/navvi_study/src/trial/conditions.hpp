@@ -3,6 +3,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "record/row.hpp"
 #include "trial/trial_monitor.hpp"
@@ -12,6 +14,8 @@ namespace navvi_study::trial {
 
 /// What this processor calls itself; n/a where the system does not tell.
 [[nodiscard]] std::string processor();
+/// On what the last bits of a result depend, by the names of TRIAL_START's fields.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> computer();
 /// The GNU build IDs of this program and of the libraries that it has loaded: programs with the
 /// same ones compute the same on the same processor. nullopt if one of them has none.
 [[nodiscard]] std::optional<std::string> build_ids();
