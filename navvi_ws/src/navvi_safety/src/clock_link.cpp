@@ -9,7 +9,7 @@
 
 int main(int argc, char** argv) {
   navvi_config::init(argc, argv, "clock_link");
-  return navvi_config::run_node<navvi_config::NoParameters>([](auto&) {
+  return navvi_config::run_node<navvi_config::NoParameters>([](auto) {
     ros::NodeHandle node;
     const ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("clock", 1);
     ros::Time last;

@@ -55,7 +55,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: scene_player BAG\n");
     return 2;
   }
-  return navvi_config::run_node<navvi_config::NoParameters>([&](auto&) {
+  return navvi_config::run_node<navvi_config::NoParameters>([&](auto) {
     try {
       const navvi_study::tool::ScenePlayer player(argv[1]);
       navvi_config::spin();
