@@ -12,7 +12,7 @@ source_ros() {
 # Flags that also keep, in the objects, what the compiler knows of each type; the target odr_check compares that. With
 # sanitizers GCC takes members of the standard library's regex for uninitialized.
 with_sanitizers=(-DCMAKE_BUILD_TYPE=None -DNAVVI_ODR_CHECK=ON
-  "-DCMAKE_CXX_FLAGS=-O0 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -Wno-error=maybe-uninitialized -flto -ffat-lto-objects"
+  "-DCMAKE_CXX_FLAGS=-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -Wno-error=maybe-uninitialized -flto -ffat-lto-objects"
   -DCMAKE_EXE_LINKER_FLAGS=-fno-lto -DCMAKE_SHARED_LINKER_FLAGS=-fno-lto)
 
 # build_workspace [--asan|--odr] [TARGET ...]: builds the targets, or the whole product. Nothing is asked, locked or

@@ -64,10 +64,12 @@ Utterances LinkCues::update(const Observation& now) {
   const bool simulated = links_.simulator != Link::lost;
   if (simulated && lost(&Links::proximity)) say(CueKind::proximity_lost);
   if (simulated && back(&Links::proximity)) say(CueKind::proximity_back);
+  // Also where this guide replaces one that was lost, and never saw it run.
   const bool stopped =
-      last_gate_ == DriveState::State::running && now.gate == DriveState::State::stopped;
+      last_gate_.value_or(DriveState::State::running) == DriveState::State::running &&
+      now.gate == DriveState::State::stopped;
   if (simulated && stopped && links_.pad != Link::lost) say(CueKind::robot_stopped);
-  last_gate_ = now.gate;
+  if (now.gate) last_gate_ = now.gate;
   return told;
 }
 

@@ -48,9 +48,9 @@ class LinkCues {
   bool cut_off_ = false;         ///< as the robot was last lost
   double sensed_ = 0.0;          ///< s, when proximity was last not lost
   Flapping pad_, proximity_, audio_;
-  Links links_;                  ///< now
-  Links last_;                   ///< a tick before
-  std::optional<DriveState::State> last_gate_;
+  Links links_;                                 ///< now
+  Links last_;                                  ///< a tick before
+  std::optional<DriveState::State> last_gate_;  ///< that was known
 };
 
 }  // namespace navvi_feedback::cues
