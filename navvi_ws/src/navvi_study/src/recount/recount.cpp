@@ -104,7 +104,7 @@ class Recount {
     push({"TRIAL_END", fields, end_.sim_ns});
   }
 
-  [[nodiscard]] record::Trial trial() { return {rows_, tracker_.rows_until(end_.sim_ns)}; }
+  [[nodiscard]] Recounted trial() { return {{rows_, tracker_.rows_until(end_.sim_ns)}, lost_}; }
 
  private:
   void push(const trial::Event& event) {
@@ -119,6 +119,12 @@ class Recount {
       if (row.sim_ns > start_.sim_ns) (void)monitor_.change_goal(start_of(row).goal, row.sim_ns);
       push(event);
     }
+  }
+
+  /// A recorder that gets no processor drops what comes meanwhile. \param seq  gapless, by roscpp
+  void count_lost(std::uint32_t seq) {
+    if (last_seq_ && seq > *last_seq_) lost_ += seq - *last_seq_ - 1;
+    last_seq_ = seq;
   }
 
   /// At the instant of the end the clock may stand, as after the loss of the simulator: of what was
@@ -160,6 +166,7 @@ class Recount {
     with<nav_msgs::Odometry>(item, "", [&](const auto& msg) {
       const auto report = node::from_msg(msg);
       if (!report) return;
+      if (!before && report->stamp > start_.sim_ns) count_lost(msg.header.seq);
       if ((report->stamp <= start_.sim_ns) == before) tracker_.take_odometry(*report);
       observe_all(places_.take(*report));
     });
@@ -195,12 +202,13 @@ class Recount {
   std::vector<record::Row> goals_, cues_;
   std::size_t next_goal_ = 0;
   std::vector<record::Row> rows_;
+  std::optional<std::uint32_t> last_seq_;  ///< of the odometry
+  unsigned lost_ = 0;
 };
 
 }  // namespace
 
-record::Trial trial_from_bag(const std::filesystem::path& path,
-                             const std::filesystem::path& phrases) {
+Recounted trial_from_bag(const std::filesystem::path& path, const std::filesystem::path& phrases) {
   rosbag::Bag bag;
   bag.open(path.string(), rosbag::bagmode::Read);
   Recount recount(told_in(bag));
