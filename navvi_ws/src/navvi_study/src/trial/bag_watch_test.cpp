@@ -61,7 +61,8 @@ TEST_F(Bag, holds_the_trial_up_until_the_recorder_hears_or_a_minute_has_passed) 
 
 TEST_F(Bag, R1_is_lost_when_it_stops_to_grow) {
   BagWatch bag(recorder("echo some >\"$3.active\"; exec sleep 60"), 10.0);
-  ASSERT_TRUE(becomes([&] { return fs::exists(folder_ / "trial.bag.active"); }));
+  const fs::path file = folder_ / "trial.bag.active";
+  ASSERT_TRUE(becomes([&] { return fs::exists(file) && fs::file_size(file) > 0; }));
   bag.expect_growth(20.0);
   EXPECT_TRUE(bag.growing(29.9));
   EXPECT_TRUE(bag.growing(31.0)) << "it grew just before";
