@@ -130,6 +130,7 @@ bool BagWatch::growing(double time) {
 }
 
 bool BagWatch::close(double age, double tail) {
+  constexpr double kLongest = 120.0;  // s
   if (!recorder_ || !recorder_->running()) return true;
   if (age >= tail) recorder_->stop();
   // One that still writes what it holds is waited for: on a busy machine it compresses for long.
@@ -137,7 +138,7 @@ bool BagWatch::close(double age, double tail) {
     size_ = size;
     wrote_ = age;
   }
-  if (age > wrote_ + recorder_->patience()) recorder_->kill();
+  if (age > wrote_ + recorder_->patience() || age > tail + kLongest) recorder_->kill();
   return false;
 }
 
