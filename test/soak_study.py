@@ -68,7 +68,7 @@ def main():
         for line in led(plan.file, folder, name, fault):
             print(line, flush=True)
     verify = Command("study", "verify", plan.file)
-    print(verify.wait_until_ended())
+    print(verify.wait_until_ended(3600))
     return verify.process.returncode
 
 
