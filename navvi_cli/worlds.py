@@ -66,9 +66,10 @@ def points(path):
 
 
 class Verdict:
-    """A world as the simulator describes it, `world`, and the way from start to goal, `way`; where there is none, `refusal` tells why."""
+    """A world as the simulator describes it, `world`, and the way from start to goal, `way`; where there is none, or none to one of the
+    `places` of a job, (x, y) in m, `refusal` tells why."""
 
-    def __init__(self, name, words=(), nav_words=(), profile="default", octomap=None, drawing=False):
+    def __init__(self, name, words=(), nav_words=(), profile="default", octomap=None, drawing=False, places=()):
         with tempfile.TemporaryDirectory() as folder:
             octomap = octomap or Path(folder) / "world.bt"
             drawn = ["drawing:=true"] if drawing else []
@@ -80,11 +81,12 @@ class Verdict:
             level = {"mesh/climb": 0, "mesh/floor_height": self.world["floor z m"]}
             given = [word.partition(":=")[0] for word in nav_words]
             planned, self.way = answer(program("navvi_nav", "navmesh_tool"), octomap, f"config:={config_of('navvi_nav', profile)}",
-                                       *(f"{name}:={value}" for name, value in level.items() if name not in given), *nav_words, f"from:={start}", f"to:={goal}")
+                                       *(f"{name}:={value}" for name, value in level.items() if name not in given), *nav_words,
+                                       f"from:={start}", f"to:={[*goal, *sum(places, ())]}")
         self.refusal = ""
         if planned.returncode:
             why = (self.way or {}).get("refusal") or planned.stderr.strip()
-            self.refusal = f"no session from {numbers(start)} to {numbers(goal)}: {why}"
+            self.refusal = f"no session from {numbers(start)} to {numbers((self.way or {}).get('refused m', goal))}: {why}"
 
     def caption(self):
         world = self.world

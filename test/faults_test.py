@@ -170,15 +170,31 @@ def test_S5_a_clock_that_is_set_by_an_hour_and_back_changes_no_motion_and_no_row
     assert onsets == sorted(onsets)
 
 
-def test_A1_a_guide_that_does_not_stay_alive_ends_the_session_before_any_trial(master, tmp_path, record_property):
+def launched(master, *words):
+    """What roslaunch prints until it ends."""
+    done = subprocess.run(["roslaunch", *map(str, words)], env=master, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
+    subprocess.run(["rosparam", "delete", "/"], env=master)  # later tests have the same master
+    return done.stdout
+
+
+def test_A1_a_program_that_does_not_stay_alive_ends_the_session(master, tmp_path, record_property):
+    (tmp_path / "short.launch").write_text("<launch><node name='short' pkg='navvi_nav' type='nav_node' output='screen' respawn='true' "
+                                           "launch-prefix='$(find navvi_safety)/scripts/respawned false'/></launch>")
     begun = time.monotonic()
-    launch = subprocess.run(["roslaunch", str(ROOT / "launch/live.launch"), "operator:=topic", f"world:={WORLD}", "rviz:=false",
-                             "feedback_parameters:={nope: 1}", f"out:={tmp_path}"],
-                            env=master, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=120)
-    subprocess.run(["rosparam", "delete", "/feedback_node"], env=master, check=True)  # later tests have the same master
+    assert "short has ended 5 times within 60 s, so the session ends." in launched(master, tmp_path / "short.launch")
     within(record_property, "session ended", time.monotonic() - begun, 60.0)
-    assert "feedback_node has ended 5 times within 60 s, so the session ends." in launch.stdout
-    assert "No trial yet: waiting for a report of feedback_node" in launch.stdout
+
+
+def test_A1_an_argument_that_a_launch_file_lacks_ends_the_session(master, tmp_path):
+    said = launched(master, "navvi", "robot.launch", "input:=topic", "rviz:=false", "rehersal:=true", f"out:={tmp_path}")
+    assert "robot.launch has no argument \"rehersal\", so the session ends. Allowed is what" in said
+
+
+@pytest.mark.parametrize("part", ["nav", "feedback", "trial"])
+def test_A1_a_node_that_rejects_a_parameter_ends_the_session_before_any_trial(part, master, tmp_path):
+    said = launched(master, ROOT / "launch/robot.launch", "input:=topic", "rviz:=false", f"{part}_parameters:={{nope: 1}}", f"out:={tmp_path}")
+    assert said.count("\"nope\" is unknown") == 1, said
+    assert "It is rejected, so the session ends." in said
     assert not list(tmp_path.glob("trial-*/summary.csv"))
 
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Gives damaged bytes to all readers, one after the other and round and round, with new seeds each time, until the hours are over.
 
-fuzz_hours.py BUILD FILE.csv [HOURS]: the build folder with the packages' test programs, those with sanitizers if it has them; the file gets a
-line a turn and holds the seeds that were used, so that the next run goes on with others; hours of the processor, over all runs. Prints the sum
-of each target at the end, or when it is stopped. What failed is in FILE.NUMBER.log.
+fuzz_hours.py BUILD FILE.csv [HOURS]: the build folder with the packages' test programs, those with sanitizers if it has them; the file has a
+line a target and day, with the seeds that were used, so that the next run goes on with others; hours of the processor, over all runs. Prints
+the sum of each target at the end, or when it is stopped. What failed is in BUILD/fuzz.SEED.log.
 """
 import csv
 import datetime
@@ -47,10 +47,27 @@ def turn(words, first, count, log):
 
 
 def kept(path):
+    """(date, target, first seed, count of seeds, processor seconds, findings)"""
     if not path.exists():
         return []
     with open(path, newline="") as file:
         return [(date, name, int(first), int(count), float(seconds), int(findings)) for date, name, first, count, seconds, findings in csv.reader(file)]
+
+
+def keep(path, turns):
+    new = path.with_suffix(".new")
+    with open(new, "w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(sorted(turns))
+    new.replace(path)
+
+
+def put(turns, turn):
+    """A turn of a target that had one that day goes on with its seeds."""
+    for at, (date, name, first, count, seconds, findings) in enumerate(turns):
+        if (date, name, first + count) == turn[:3]:
+            turns[at] = (date, name, first, count + turn[3], round(seconds + turn[4], 1), findings + turn[5])
+            return
+    turns.append(turn)
 
 
 def main():
@@ -68,16 +85,15 @@ def main():
             first = max((row[2] + row[3] for row in of_it), default=0)
             # What failed has not used its time, and is left out from then on.
             count = int(of_it[-1][3] * (1.0 if of_it[-1][5] else min(10.0, TURN / max(of_it[-1][4], 0.1)))) + 1 if of_it else FIRST
-            log = path.with_suffix(f".{len(turns)}.log")
+            log = build / f"fuzz.{first}.log"
             seconds, good = turn(found[name], first, count, log)
             if good:
                 log.unlink()
             else:
                 print(f"{name}, seeds {first} to {first + count - 1}: a finding, in {log}", flush=True)
                 del found[name]
-            turns.append((datetime.date.today().isoformat(), name, first, count, round(seconds, 1), int(not good)))
-            with open(path, "a", newline="") as file:
-                csv.writer(file, lineterminator="\n").writerow(turns[-1])
+            put(turns, (datetime.date.today().isoformat(), name, first, count, round(seconds, 1), int(not good)))
+            keep(path, turns)
     except KeyboardInterrupt:
         pass
     print("| target | of each kind | processor hours | turns with a finding |\n|---|---|---|---|")

@@ -4,7 +4,7 @@
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
-       stage held the wheels at zero, the time until the robot stood still, and the fastest speed in the 5 s after that.
+       stage held the wheels at zero, the time until the robot stood still, the fastest speed in the 5 s after that, and the kinds of what is said.
 halt   likewise, then halts feedback_node for 3 s; prints the time in s until the wheels were held, and the kinds of what it says until it tells
        what became of them.
 pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the time in s until that is said, and the fastest speed from 0.5 s
@@ -168,25 +168,32 @@ class Stick:
         return len(open_ones), min(slowest), max(grown)
 
     def halt(self):
-        pid, said, self.stopped = self.pid("/feedback_node"), [], None
+        pid, self.stopped = self.pid("/feedback_node"), None
         halted = time.monotonic()
         os.kill(pid, signal.SIGSTOP)
         self.hold(1.0, lambda: self.stopped is not None, 3.0)
         held = self.stopped - halted
         self.hold(1.0, lambda: False, 3.0 - held)
-        rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and cue.stage == Cue.QUEUED and said.append(cue.kind))
+        said = self.said()
         os.kill(pid, signal.SIGCONT)
         self.hold(1.0, lambda: "robot_stopped" in said or "release_stick" in said, 20.0)
         return held, *said
 
+    def said(self):
+        """Kinds, of what is to be spoken from now on."""
+        kinds = []
+        rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and cue.stage == Cue.QUEUED and kinds.append(cue.kind))
+        return kinds
+
     def kill(self):
-        pid = self.pid("/feedback_node")
+        pid, said = self.pid("/feedback_node"), self.said()
         self.stopped = None
         killed = time.monotonic()
         os.kill(pid, signal.SIGKILL)
         self.hold(1.0, lambda: self.stopped is not None and abs(self.speed) < 1e-3, 5.0)
         still = time.monotonic()
-        return self.stopped - killed, still - killed, self.fastest(1.0, 5.0)
+        said.clear()
+        return self.stopped - killed, still - killed, self.fastest(1.0, 5.0), *said
 
 
 NODES = ("/sim_node", "/nav_node", "/feedback_node", "/trial_node")

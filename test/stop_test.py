@@ -73,8 +73,9 @@ def test_C2_a_guide_that_was_halted_calls_nobody_else_lost(session, record_prope
 
 
 def test_C1_a_killed_feedback_node_stops_the_robot_and_its_successor_does_not_start_it(session, record_property):
-    speed, held, still, afterwards = map(float, run_stick(session, "kill"))
-    assert speed >= 0.8
-    within(record_property, "wheels held", held, 0.25)
-    within(record_property, "still", still, 0.5)
-    assert afterwards < 1e-3, "the stick was never neutral"
+    speed, held, still, afterwards, *said = run_stick(session, "kill")
+    assert float(speed) >= 0.8
+    within(record_property, "wheels held", float(held), 0.25)
+    within(record_property, "still", float(still), 0.5)
+    assert float(afterwards) < 1e-3, "the stick was never neutral"
+    assert said[:1] == ["robot_stopped"]

@@ -159,6 +159,18 @@ def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, mo
     assert study.Study.of(plan.file).progress().freezes
 
 
+def test_a_column_that_no_summary_has_excludes_nothing_and_is_refused(tmp_path, monkeypatch):
+    for name, given in ("version", lambda: "test"), ("tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name):
+        monkeypatch.setitem(actions.TOOLS, name, given)
+    args = words(study.Study(small(tmp_path, ("{column: result", "{column: missed_message, above: 9, reason: lost}, {column: result"))),
+                 reason=None, no_worlds=False, pictures=False)
+    for action in actions.check, actions.freeze:
+        with pytest.raises(StudyError, match="\"exclusions\" have the column \"missed_message\", which no summary has; .* such as missed_messages, "):
+            action(args)
+    (tmp_path / "small.yaml").write_text((tmp_path / "small.yaml").read_text().replace("missed_message,", "missed_messages,"))
+    actions.freeze(args)
+
+
 def test_zones_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, monkeypatch):
     monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
     monkeypatch.setitem(actions.TOOLS, "tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)

@@ -41,22 +41,54 @@ def test_a_torn_row_is_set_aside_and_a_changed_one_is_refused(tmp_path):
         journal.Journal(kept.path).rows()
 
 
+def test_a_journal_without_the_copy_of_its_last_row_has_lost_rows_but_for_one_of_before(tmp_path, monkeypatch):
+    kept = journal.Journal(tmp_path / "journal.jsonl")
+    row = {"seq": 1, "utc": "2026-01-01T00:00:00.000Z", "mono_ns": 1, "by": "somebody", "type": "done", "before": journal.BEGIN}
+    kept.path.write_text(journal.json.dumps({**row, "hash": journal.hash_of(row)}) + "\n")
+    assert kept.lost() == ""
+    with monkeypatch.context() as disk, pytest.raises(KeyboardInterrupt):
+        disk.setattr(journal, "utc_now", killed_at_once)
+        kept.append("done")
+    assert kept.last.exists() and kept.lost() == "", "the copy is there before the first row that has one"
+    kept.append("done")
+    kept.last.unlink()
+    with pytest.raises(StudyError, match="journal.jsonl lacks journal.last, the copy of its last row, written before; restore it from a copy."):
+        kept.append("done")
+    kept.append("loss")
+    assert kept.lost() == "" and kept.append("done")["seq"] == 4
+    kept.last.unlink()
+    kept.path.write_bytes(b"")
+    kept.last.symlink_to(tmp_path / "none" / "journal.last")
+    with pytest.raises(StudyError, match="journal.last cannot be made: No such file or directory. Nothing is begun"):
+        journal.Journal(kept.path).append("done")
+    kept.last.unlink()
+    kept.last.mkdir()
+    assert journal.Journal(kept.path).append("done")["seq"] == 1, "a copy that cannot be written stops nothing"
+
+
+def killed_at_once():
+    raise KeyboardInterrupt
+
+
 SHORTER = {"within a row": lambda lines: lines[:1] + [lines[1][:9]], "by two rows": lambda lines: lines[:-2], "to nothing": lambda lines: [], "by all but its first row": lambda lines: lines[:1]}
 
+WAYS = [*((True, how) for how in SHORTER), (False, "by two rows"), (False, "within a row"), (False, "to nothing")]
 
-@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
+
+@pytest.mark.parametrize("with_last, how", WAYS)
 def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch, capsys, with_last, how):
     for name, path in ("version", "test"), ("tool", "true"):
         monkeypatch.setitem(actions.TOOLS, name, lambda *given, path=path: path)
     rest(work())
-    kept, whole = work.study, work.study.journal.path.read_bytes()
+    kept, whole, last = work.study, work.study.journal.path.read_bytes(), work.study.journal.last.read_bytes()
     args = words(kept, participant="sub-01", reason="x", only=None, blind=False, bids=True, what="sub-01", data="keep", typed=True, session=False,
                  accept_loss=None)
     assert actions.verify(args) == 0
     kept.journal.path.write_bytes(b"".join(SHORTER[how](whole.splitlines(keepends=True))))
     if not with_last:
         kept.journal.last.unlink()
-    named = "done sub-01 s1-end" if with_last else str(trial_of_first(kept)) if how == "within a row" else str(kept.frozen_file)
+    named = "done sub-01 s1-end" if with_last else {
+        "by two rows": "lacks journal.last", "within a row": str(trial_of_first(kept)), "to nothing": str(kept.frozen_file)}[how]
     for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
         with pytest.raises(StudyError) as problem:
             action(args)
@@ -67,6 +99,7 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     actions.status(args)
     assert named in capsys.readouterr().out
     kept.journal.path.write_bytes(whole)
+    kept.journal.last.write_bytes(last)
     assert actions.verify(args) == 0
     with pytest.raises(StudyError, match="nothing to accept"):
         actions.verify(words(kept, accept_loss="the disk failed"))
@@ -74,7 +107,7 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
         actions.verify(words(kept, accept_loss=""))
 
 
-@pytest.mark.parametrize("with_last, how", [*((True, how) for how in SHORTER), (False, "within a row"), (False, "to nothing")])
+@pytest.mark.parametrize("with_last, how", WAYS)
 def test_a_loss_that_is_accepted_is_named_and_nothing_is_driven_or_asked_again(work, monkeypatch, capsys, with_last, how):
     monkeypatch.setitem(actions.TOOLS, "tool", lambda *given: "true")
     rest(work("aborted"))
@@ -169,7 +202,7 @@ def test_D4_what_was_written_is_on_the_disk_with_the_name_of_its_file(tmp_path, 
     monkeypatch.setattr(os, "fsync", fsync)
     kept, notes = journal.Journal(tmp_path / "one/home/journal.jsonl"), tmp_path / "two/home/notes.jsonl"
     files = len(os.listdir("/proc/self/fd"))
-    for write, wanted in ((lambda: kept.append("done"), ["home", "journal.jsonl"]), (lambda: kept.append("done"), ["journal.jsonl"]),
+    for write, wanted in ((lambda: kept.append("done"), ["home", "home", "journal.jsonl"]), (lambda: kept.append("done"), ["journal.jsonl"]),
                           (lambda: (kept.path.open("ab").write(b"torn"), kept.rows()), ["journal.torn", "home", "journal.jsonl"]),
                           (lambda: journal.append_line(notes, {}), ["home", "notes.jsonl"]), (lambda: journal.append_line(notes, {}), ["notes.jsonl"]),
                           (lambda: study.write_safely(tmp_path / "three/home/key", "{}"), ["key.new", "home"])):
@@ -213,7 +246,8 @@ def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
 
 @pytest.mark.parametrize("damage", [
     lambda data: data[:len(data) // 3], lambda data: data[:-1], lambda data: data.replace(b"reached", b"r\xffached"),
-    lambda data: data.replace(b"elapsed_s", b"elapsed_z"), None], ids=["cut", "no end", "bytes", "title", "missing"])
+    lambda data: data.replace(b"elapsed_s", b"elapsed_z"), lambda data: data.replace(b"n/a", b'"n"/a'),
+    lambda data: data.replace(b",10.0\n", b"\n"), None], ids=["cut", "no end", "bytes", "title", "quotes", "cell", "missing"])
 def test_a_trial_whose_summary_is_damaged_stops_the_report_until_it_is_excluded(work, monkeypatch, damage):
     monkeypatch.setattr(actions, "_figures", lambda: [])
     rest(work())
@@ -225,7 +259,8 @@ def test_a_trial_whose_summary_is_damaged_stops_the_report_until_it_is_excluded(
         with pytest.raises(StudyError, match=f"{path} .*study exclude {args.plan} sub-01/{attempt.trial} --reason"):
             action(args)
     sentences, bad = verify.verify(work.study, work.study.progress(), "true")
-    assert bad == 1 and "files differ: summary.csv" in sentences[0] and "table differs: summary.csv is missing or damaged" in sentences[0]
+    assert bad == verify.changed(work.study, work.study.progress()) == 1
+    assert "files differ: summary.csv" in sentences[0] and "table differs: summary.csv is missing or damaged" in sentences[0]
     actions.exclude(exclusion(work.study, f"sub-01/{attempt.trial}", "its summary is lost"))
     rows = table.trials(work.study, work.study.progress())
     assert [(row["counts"], row["excluded"], "result" in row) for row in rows] == [("no", "its summary is lost", False), ("yes", "n/a", True)]

@@ -110,6 +110,10 @@ def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it
     ("limit: 60", "limit: 60\nprobes: {after: [20, 5], worlds: {world: easy, seeds: [3, 4]}}", "is not a pair; allowed are the earliest and the latest second"),
     ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3]}}", "has 1 worlds, and group all has 2 conditions"),
     ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [1, 3]}}", "has easy 1 twice"),
+    ("limit: 60", "limit: 60\nprobes: {after: [5, 61], worlds: {world: easy, seeds: [3, 4]}}",
+     "has \"after\" up to 61 s, and the limit of a trial is 60 s"),
+    ("[tlx]", "[tlx, tlx]", "has the step s1-c1-tlx twice"),
+    ("{after_condition: [tlx]}", "{at_begin: [tlx], at_end: [tlx]}", "has the step s1-tlx twice"),
     ("[tlx]", "[probe]", "allowed are such items below the plan's key \"probes\""),
     ("measure: time", "measure: pointing", "does not ask probe"),
 ])

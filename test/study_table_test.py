@@ -173,6 +173,21 @@ def test_a_trial_whose_bag_is_recorded_as_bad_agrees_without_one(tmp_path):
     assert verify._bag(None, tmp_path, {"bag": "ok"}) == "is missing"
 
 
+@pytest.mark.parametrize("said, end, words", [
+    ("the bag does not hold the trial's end", "TRIAL_END,x=2;reason=journal_damaged", "no end, as the trial's record broke off"),
+    ("the bag does not hold the trial's end", "TRIAL_END,x=2;reason=limit", "differs: the bag"),
+    ("the bag does not hold the trial's end", "PROGRESS,x=2", "differs: the bag"),
+    ("a row is missing", "TRIAL_END,x=2;reason=journal_damaged", "differs: a row")])
+def test_a_bag_without_the_end_that_was_written_after_a_crash_agrees(tmp_path, said, end, words):
+    write_record(tmp_path)
+    journal = tmp_path / "journal.csv"
+    journal.write_text(journal.read_text().replace("TRIAL_END,x=2", end))
+    (tmp_path / "trial.bag").touch()
+    (tmp_path / "program").write_text(f"#!/bin/sh\necho \"{said}\"\nexit 1\n")
+    (tmp_path / "program").chmod(0o755)
+    assert verify._bag(tmp_path / "program", tmp_path, {"bag": "ok"}).startswith(words)
+
+
 def test_a_bag_that_a_power_cut_left_open_is_counted_until_it_is_repaired(work):
     class Cut(Driver):
         def trial(self, participant, step, attempt, folder, lock):

@@ -5,7 +5,7 @@ simulated person. It begins with six lines that tell what to press, where the
 record goes and how to stop (Ctrl-C), and ends with how it went.
 
 Exit codes
-0: the goal was reached. 1: it was not, or a program of the session crashed.
+0: the goal was reached, of a job each place. 1: it was not, or a program of the session crashed.
 2: a wrong argument, nothing started.
 """
 import importlib.util
@@ -148,11 +148,12 @@ def check_by_programs(words):
     check_parameters(words)
     for name in filter(words.get, PLACES):
         accepted("feedback", FEEDBACK, [f"places:={words[name]}"])
-    if words.get("jobs") and not yaml.safe_load(words["jobs"].read_text(encoding="utf-8")):
+    job = yaml.safe_load(words["jobs"].read_text(encoding="utf-8")) if words.get("jobs") else []
+    if words.get("jobs") and not job:
         fail(f"{words['jobs']}: a job must have at least one place.", 2)
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
     Verdict(words["world"], [f"config:={config_of('navvi_sim', words['profile'])}", *session, *words.parameters_of("sim")],
-            words.parameters_of("nav"), words["profile"]).require()
+            words.parameters_of("nav"), words["profile"], places=[(place["x"], place["y"]) for place in job]).require()
 
 
 def announce(words, log, network, where):
@@ -173,4 +174,7 @@ def report(out, begin, why):
     folders = trials.written_since(begin, out)
     if not folders:
         fail(f"the session ended without a trial{why}")
-    return trials.report(folders[-1])
+    legs = {trials.conditions(folder).get("job_name"): folder for folder in folders}  # the last of each place of a job
+    ends = [trials.summary(folder) for name, folder in legs.items() if name]
+    missed = any(row["result"] != "reached" and row["reason"] != "goal_at_start" for row in ends)
+    return trials.report(folders[-1]) or int(missed)

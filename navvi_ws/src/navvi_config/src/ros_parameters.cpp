@@ -122,6 +122,14 @@ bool name_is_taken() { return g_name_taken; }
 
 bool ends_alone() { return g_asked; }
 
+int reject(const std::string& error) {
+  const pid_t launcher = is_roslaunch(::getppid()) ? ::getppid() : 0;
+  ROS_FATAL("%s%s", error.c_str(), launcher != 0 ? " It is rejected, so the session ends." : "");
+  while (launcher != 0 && !ending() && ::kill(launcher, SIGINT) == 0)
+    ros::WallDuration(0.5).sleep();  // while roslaunch starts, a signal can be lost
+  return 2;
+}
+
 YAML::Node parameters(const ros::NodeHandle& node) {
   XmlRpc::XmlRpcValue value;
   if (!node.getParam(node.getNamespace(), value)) return YAML::Node(YAML::NodeType::Map);

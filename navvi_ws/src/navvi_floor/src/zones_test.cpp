@@ -99,6 +99,19 @@ TEST(Zones, who_is_in_a_closed_one_is_let_out) {
   EXPECT_GT(inside.backward, 0.1);
 }
 
+TEST(Zones, of_two_at_one_place_the_strictest_holds_in_any_order) {
+  for (const std::string& both : {kPress + std::string(kLane), kLane + std::string(kPress)}) {
+    for (const double x : {1.0, 1.9, 3.0, 4.2}) {
+      const auto state = zones(both).at({x, 0.0}, 0.0, kRadius);
+      const auto press = zones(kPress).at({x, 0.0}, 0.0, kRadius);
+      const auto lane = zones(kLane).at({x, 0.0}, 0.0, kRadius);
+      EXPECT_EQ(state.forward, std::min(press.forward, lane.forward)) << x;
+      EXPECT_EQ(state.backward, std::min(press.backward, lane.backward)) << x;
+      EXPECT_EQ(state.name, press.kind == Kind::none ? lane.name : press.name) << x;
+    }
+  }
+}
+
 TEST(Zones, a_border_that_goes_round_twice_or_touches_itself_encloses_the_same) {
   for (const char* const corners : {"0, 0, 4, 0, 4, 4, 0, 4, 0, 0, 4, 0, 4, 4, 0, 4", "0, 0, 4, 0, 4, 4, 0, 4, 0, 0",
                                     "0, 0, 4, 0, 2, 2, 4, 4, 0, 4, 2, 2"}) {

@@ -59,6 +59,9 @@ void end_on_request();
 /// Whether it was asked to end, or its name taken: the session goes on without it.
 [[nodiscard]] bool ends_alone();
 
+/// Logs what a new start would meet again, ends the roslaunch of this node, and returns code 2.
+[[nodiscard]] int reject(const std::string& error);
+
 struct NoParameters {
   void describe(Visitor& /*visit*/) {}
 };
@@ -84,8 +87,7 @@ template <typename Config, typename Body>
     const int code = body(load<Config>(ros::NodeHandle("~")));
     return name_is_taken() ? 3 : code;
   } catch (const ConfigError& error) {
-    ROS_FATAL("%s", error.what());
-    return 2;
+    return reject(error.what());
   } catch (const std::bad_alloc&) {
     ROS_FATAL("There is not enough memory for what came; this node ends.");
     return 3;

@@ -78,7 +78,7 @@ void Inlets::receive(drive::InputState joy, InputSource& source) {
     if (late != StickAge::Late::no && late != logged_)
       ROS_WARN(
           "The stick's messages come %.2f s after their stamp (median of 5 s), so the robot %s. "
-          "The way from the stick delays them, or the computers' clocks differ (chrony, NTP).",
+          "A busy machine or the way delays them, or the computers' clocks differ (chrony, NTP).",
           stick_age_.median(), joy.live ? "is slow" : "stands");
     logged_ = late;
   }

@@ -45,7 +45,7 @@ struct ToolConfig {
     visit(config, "config", Any{}, "", "a YAML file of parameters, like those of nav_node");
     visit(picture, "picture", Any{}, "", "a PGM in place of the one that a .yaml map names");
     visit(from, "from", Any{}, "m", "[x, y] where a path begins, in map");
-    visit(to, "to", Any{}, "m", "[x, y] where it ends");
+    visit(to, "to", Any{}, "m", "[x, y, ...] where it ends; to all but the first only a refusal");
     visit(cylinders, "cylinders", Any{}, "m", "[x, y, radius, ...] of what moves, cut out");
     visit(drawing, "drawing", Any{}, "", "whether to print floor and polygons as well");
   }
@@ -64,10 +64,8 @@ ToolConfig read_config(const std::vector<std::string>& words) {
                        navvi_config::Removed::ignored);
   }
   navvi_config::read(out, given, "the command line");
-  for (const auto* point : {&out.from, &out.to})
-    if (!point->empty() && point->size() != 2)
-      throw ConfigError("from and to must be two numbers each, such as [1.5, 2].");
-  if (out.from.size() != out.to.size()) throw ConfigError("from and to must be given together.");
+  if (out.from.size() != (out.to.empty() ? 0 : 2) || out.to.size() % 2 != 0)
+    throw ConfigError("from must be two numbers, such as [1.5, 2], with to, which is two a goal.");
   for (std::size_t i = 2; i < out.cylinders.size() + 2; i += 3)
     if (i >= out.cylinders.size() || !(out.cylinders[i] > 0.0))
       throw ConfigError("cylinders must be x, y and a radius above 0 each, such as [1.5, 2, 0.4].");
@@ -174,12 +172,16 @@ class Stopwatch {
 /// \return whether there is a path
 bool add_plan(JsonFields& fields, plan::Planner& planner, const ToolConfig& config) {
   Stopwatch watch;
-  const plan::Plan plan =
-      planner.plan({config.from[0], config.from[1]}, {config.to[0], config.to[1]});
-  const std::string planned = watch.lap();
-  if (plan.status != plan::PlanStatus::found) {
+  plan::Plan plan;
+  std::string planned;
+  for (std::size_t at = config.to.size(); at > 0; at -= 2) {
+    const Point goal{config.to[at - 2], config.to[at - 1]};
+    plan = planner.plan({config.from[0], config.from[1]}, goal);
+    planned = watch.lap();
+    if (plan.status == plan::PlanStatus::found) continue;
     fields.emplace_back("refusal",
                         json_text(plan.detail.empty() ? "there is no route" : plan.detail));
+    fields.emplace_back("refused m", json_list({json_number(goal.x), json_number(goal.y)}));
     return false;
   }
   Path turns;

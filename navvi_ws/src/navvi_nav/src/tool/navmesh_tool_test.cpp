@@ -53,14 +53,24 @@ TEST_F(NavmeshTool, answers_a_query_and_says_why_it_cannot) {
       << apart.text;
 }
 
+TEST_F(NavmeshTool, refuses_several_goals_where_one_cannot_be_reached) {
+  const Answer found = ask(path("map.bt") + " 'from:=[1,1]' 'to:=[6,1,2,1]'");
+  EXPECT_NE(found.text.find("\"shortest way m\": 5.000000"), std::string::npos) << found.text;
+  const Answer apart = ask(path("map.bt") + " 'from:=[1,1]' 'to:=[6,1,8,3,2,1]'");
+  EXPECT_EQ(apart.code, 1);
+  EXPECT_NE(apart.text.find("\"refused m\": [8.000000, 3.000000]"), std::string::npos)
+      << apart.text;
+}
+
 TEST_F(NavmeshTool, refuses_what_it_cannot_do_in_a_sentence) {
   std::ofstream(path("bad.yaml")) << "colour: red\n";
   for (const std::string& words :
        {std::string(), path("none.bt"), path("map.svg"), path("map.bt") + " 'from:=[1,2]'",
-        path("map.bt") + " 'from:=[1]' 'to:=[2]'", path("map.bt") + " 'cylinders:=[1,2,-1]'",
-        path("map.bt") + " 'cylinders:=[1,2]'", path("map.bt") + " 'from:=[1,x]' 'to:=[2,3]'",
-        path("map.bt") + " colour:=red", path("map.bt") + " more", path("bad.yaml"), path("."),
-        path("map.bt") + " stage:=paint", path("map.bt") + " config:=" + path("bad.yaml"),
+        path("map.bt") + " 'from:=[1]' 'to:=[2]'", path("map.bt") + " 'from:=[1,1]' 'to:=[2,1,3]'",
+        path("map.bt") + " 'cylinders:=[1,2,-1]'", path("map.bt") + " 'cylinders:=[1,2]'",
+        path("map.bt") + " 'from:=[1,x]' 'to:=[2,3]'", path("map.bt") + " colour:=red",
+        path("map.bt") + " more", path("bad.yaml"), path("."), path("map.bt") + " stage:=paint",
+        path("map.bt") + " config:=" + path("bad.yaml"),
         path("map.bt") + " config:=" + path("none.yaml")}) {
     const Answer answer = ask(words);
     EXPECT_EQ(answer.code, 2) << words;

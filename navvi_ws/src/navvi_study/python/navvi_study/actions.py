@@ -1,4 +1,6 @@
 """The actions of `./navvi study`: each a function with its help and its arguments. Nothing here knows how programs are built."""
+import difflib
+
 from .errors import StudyError
 
 # Set by the command: tool(PACKAGE, PROGRAM) builds a program and returns its path; accept(PARAMETERS) raises StudyError for those that a
@@ -339,6 +341,12 @@ def rehearse(args):
 def _require_runnable(plan):
     """Raises StudyError for what a session would refuse while the participant waits."""
     from . import worlds
+    from .record import TOLD
+    columns = {rule.column for rule in plan.exclusions} - {"result", *TOLD}
+    known = [figure["name"] for figure in _figures()] if columns else []
+    for column in sorted(columns - {*known}):
+        raise StudyError(f"{plan.file}: \"exclusions\" have the column \"{column}\", which no summary has; allowed are the columns of summary.csv, "
+                         f"such as {', '.join(difflib.get_close_matches(column, known, 3, 0))}.")
     worlds.require_files(plan, TOOLS.get("tool"))
     for condition in plan.conditions:
         try:

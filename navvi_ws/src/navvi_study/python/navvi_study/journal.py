@@ -18,6 +18,7 @@ from pathlib import Path
 from .errors import StudyError
 
 BEGIN = "0" * 64  # before the first row
+FORMAT = 2  # of a row; since 2 there is journal.last
 AFTER_LOSS = ("loss", "withdraw", "erased")  # rows that are written though others were lost: a person's data can be deleted at any time
 
 
@@ -40,7 +41,9 @@ class Journal:
             lost = self._lost(rows)
             if lost and kind not in AFTER_LOSS:
                 raise StudyError(self.lacks(lost))
-            row = {"seq": len(rows) + 1, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": getpass.getuser(),
+            if not any("format" in row for row in rows):
+                self._begin_last()
+            row = {"seq": len(rows) + 1, "format": FORMAT, "utc": utc_now(), "mono_ns": time.monotonic_ns(), "by": getpass.getuser(),
                    "type": kind, **fields, "before": rows[-1]["hash"] if rows else BEGIN}
             row["hash"] = hash_of(row)
             try:
@@ -48,7 +51,7 @@ class Journal:
             except OSError as problem:
                 raise StudyError(f"{self.path} cannot be written: {problem.strerror}. Nothing is begun; mend that and try again.") from None
             if not lost or kind == "loss":  # else the copy goes on to tell of the loss
-                with contextlib.suppress(OSError):  # the row is safe; a copy that is missing or torn tells of no loss
+                with contextlib.suppress(OSError):  # the row is safe; a copy that is old or torn tells of no loss
                     self.last.write_text(json.dumps(row) + "\n")
             return row
 
@@ -60,7 +63,17 @@ class Journal:
     def lacks(self, row):
         return f"{self.path} lacks {row}, written before; restore it from a copy."
 
+    def _begin_last(self):
+        """From the first row on, a missing file tells that it was taken away."""
+        try:
+            self.last.touch(0o600)
+            sync_folder(self.path.parent)
+        except OSError as problem:
+            raise StudyError(f"{self.last} cannot be made: {problem.strerror}. Nothing is begun; mend that and try again.") from None
+
     def _lost(self, rows):
+        if not self.last.exists() and any("format" in row for row in rows):
+            return f"{self.last.name}, the copy of its last row"
         for last in read_lines(self.last, {"seq": int, "utc": str, "mono_ns": int, "type": str, "hash": str})[0]:
             if last["hash"] not in [row["hash"] for row in rows[last["seq"] - 1:last["seq"]]]:
                 what = " ".join(str(last[key]) for key in ("type", "participant", "step") if key in last)

@@ -5,6 +5,7 @@ from . import checked, measures
 from .checked import code, flag, list_of, number, numbered, one_of, text, whole
 from .errors import StudyError
 from .plan import ALWAYS, OWN, SWITCHES, Condition, Group, Plan, Question, Rule, shown, worlds_of
+from .schedule import steps_of
 from .steps import KINDS
 
 
@@ -132,6 +133,9 @@ def _check(root, plan):
                 raise root.error("conditions", f"has {same} and {name}, which are alike; allowed are conditions that differ")
     for kind in KINDS:
         kind.check(root, plan)
+    if twice := _first_twice([step.name for step in steps_of(plan, plan.participants[0])]):
+        raise root.error("questionnaires", f"has the step {twice} twice; allowed is a questionnaire once after a condition, "
+                         "and once at the begin or the end of a session")
     consent = plan.steps["consent"]
     for key, asked in (("consent", [consent] if consent else []), ("questionnaires", [one for key in ("at_begin", "after_condition", "at_end") for one in plan.steps[key]])):
         if any(item.probes for one in asked for item in one.items):

@@ -214,6 +214,7 @@ void TrialKeeper::wait() {
 }
 
 void TrialKeeper::arm() {
+  kept_.folder.clear();
   try {
     kept_.folder = record::create_trial_folder(config_.out, now_.utc_ns / kSecond);
     kept_.journal = std::make_unique<record::Journal>(
@@ -221,7 +222,7 @@ void TrialKeeper::arm() {
     kept_.track = std::make_unique<record::TrackFile>(kept_.folder, calls_);
   } catch (const std::runtime_error& error) {
     tell(Tone::fatal, error.what());
-    return leave(3);
+    return abandon(3);
   }
   kept_.bag = BagWatch(
       config_.record != "none" ? outlets_.start_recorder(kept_.folder / "trial.bag") : nullptr,
@@ -235,7 +236,10 @@ void TrialKeeper::try_to_start() {
   if (!kept_.bag.ready(now_.wall())) return;
   if (job_.done()) {
     if (config_.press_to_start && job_.here && !pressed_) return;
-    tell(Tone::info, "The job is done: " + std::to_string(job_.places.size()) + " places.");
+    std::string done = "The job is done: " + std::to_string(job_.places.size()) + " places";
+    for (const auto at : job_.missed)
+      done += (at == *job_.missed.begin() ? ", not reached: " : ", ") + job_.places[at].name;
+    tell(job_.missed.empty() ? Tone::info : Tone::warning, done + ".");
     return abandon(0);
   }
   if (!job_.places.empty()) {
@@ -485,9 +489,11 @@ void TrialKeeper::finish() {
   shown_.said = phase_since_;
   const bool reached = ending_.result == "reached";
   const auto at = job_.at(goals_.now.place);
-  job_.here = reached ? at : std::nullopt;
+  job_.here = reached || ending_.reason == "goal_at_start" ? at : std::nullopt;
+  if (at && job_.here) job_.missed.erase(*at);
+  if (at && !job_.here) job_.missed.insert(*at);
   // In a study each place is driven to once, and what breaks off a trial breaks off the job.
-  if (at && (reached || config_.locked))
+  if (at && (ending_.result != "aborted" || config_.locked))
     job_.left.erase(std::remove(job_.left.begin(), job_.left.end(), *at), job_.left.end());
   const bool broke_off = config_.locked && !reached && ending_.result != "timeout";
   if (config_.once || broke_off || exit_.asked || exit_.code != 0) leave(exit_.code);

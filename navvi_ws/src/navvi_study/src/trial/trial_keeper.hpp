@@ -7,6 +7,7 @@
 #include <navvi_feedback/menu/places_file.hpp>
 #include <navvi_types/stall_guard.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -129,6 +130,7 @@ class TrialKeeper {
   struct Job {
     std::vector<navvi_feedback::menu::NamedPlace> places;
     std::vector<std::size_t> left;    ///< in `places`
+    std::set<std::size_t> missed;     ///< to which a trial led in vain, so far
     std::optional<std::size_t> here;  ///< which was reached by the trial that has ended
     [[nodiscard]] bool done() const { return !places.empty() && left.empty(); }
     /// The place of the job to which a trial leads; nullopt: another goal, of the menu.

@@ -411,6 +411,29 @@ TEST_F(Trials, of_a_job_lead_to_the_place_that_was_chosen_and_then_to_those_that
   EXPECT_TRUE(keeper_->done());
 }
 
+TEST_F(Trials, of_a_job_end_without_a_place_that_is_refused_or_takes_too_long_and_name_it) {
+  config_.job = folder_.write("job.yaml",
+                              "- {name: attic, x: 500, y: 0}\n- {name: here, x: 2, y: 0}\n"
+                              "- {name: table, x: 3, y: 0}\n- {name: dock, x: 6, y: 0}\n");
+  config_.out = (folder_ / "out").string();
+  config_.limit = 5.0;
+  offer();
+  const auto drive = [&](State state, double x, const std::string& until, int count) {
+    for (int i = 0; i < 400 && times(until) < count; ++i) live(0.05, state, {x, 0.0});
+  };
+  drive(State::goal_refused, 500.0, "TRIAL_END", 1);
+  drive(State::arrived, 2.0, "TRIAL_END", 2);
+  drive(State::following, 3.0, "TRIAL_END", 3);
+  drive(State::following, 6.0, "TRIAL_START", 4);
+  live(1.0, State::following, {6.0, 0.0});
+  drive(State::arrived, 6.0, "TRIAL_END", 4);
+  live(9.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 0);
+  EXPECT_EQ(times("TRIAL_END"), 4);
+  EXPECT_TRUE(said("The job is done: 4 places, not reached: attic, table."));
+}
+
 TEST_F(Trials, of_a_job_in_a_study_lead_to_each_place_once_and_end_where_one_breaks_off) {
   for (const bool breaks_off : {false, true}) {
     config_.job = folder_.write("job.yaml",
@@ -434,6 +457,23 @@ TEST_F(Trials, of_a_job_in_a_study_lead_to_each_place_once_and_end_where_one_bre
     live(9.0, State::following, {6.0, 0.0});
     EXPECT_TRUE(keeper_->done()) << "nothing is to be confirmed there";
   }
+}
+
+TEST_F(Trials, L1_that_cannot_be_recorded_leave_no_folder_and_no_harm_to_another) {
+  config_.once = false;
+  begin();
+  live(1.0);
+  keeper_->take_goal({3.0, 0.0}, now());
+  live(1.0, State::following, {3.0, 0.0});
+  while (!happened("BAG_CLOSED")) live(0.05, State::arrived, {3.0, 0.0});
+  failures_ = 100;
+  error_ = ENOSPC;
+  live(9.0);
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_EQ(keeper_->exit_code(), 3);
+  EXPECT_TRUE(said("No space left on device"));
+  ASSERT_EQ(folders().size(), 1U);
+  EXPECT_TRUE(holds("summary.csv", "reached"));
 }
 
 TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {

@@ -39,6 +39,9 @@ class Probe(Driven):
     @classmethod
     def check(cls, root, plan):
         worlds = plan.steps["probes"] and plan.steps["probes"].worlds
+        if worlds and plan.steps["probes"].latest > plan.limit:
+            raise root.error("probes", f"has \"after\" up to {plan.steps['probes'].latest:g} s, and the limit of a trial is {plan.limit:g} s; "
+                             "allowed is up to the limit")
         for group in plan.groups if worlds else ():
             if len(group.conditions) > len(worlds):
                 raise root.error("probes", f"has {len(worlds)} worlds, and group {group.name} has {len(group.conditions)} conditions; allowed are as many worlds or more")
