@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Long sessions, watched from outside: memory, threads and descriptors of each program, pace, stops, and whether the record is whole.
 
-soak.py RUN [ARGUMENT:=VALUE...] [--minutes=N] [--out=FOLDER], in a shell that knows the workspace. Writes a line for each program and second to FOLDER/soak.csv, in
-place of those of an earlier such run, adds its figures to FOLDER/soak.md, and draws soak.png of soak.csv; the records stay in FOLDER/RUN. Exit code
-1: a bound is broken.
+soak.py RUN [ARGUMENT:=VALUE...] [--minutes=N] [--out=FOLDER], in a shell that knows the workspace. Writes a line for each program and second to
+FOLDER/soak.csv, in place of those of an earlier such run, adds its figures to FOLDER/soak.md, and draws soak.png of soak.csv; the records stay in
+FOLDER/RUN. Exit code 1: a bound is broken.
 
 K1  goals in a loop in a busy hall, at up to 10 times real time
 K2  the same at real time, while feedback_node and nav_node are killed in turn
