@@ -182,6 +182,27 @@ def test_a_cue_of_a_node_that_woke_after_the_end_is_not_counted(trial, tmp_path)
     subprocess.run(["rosrun", "navvi_study", "count_trial", "bag", str(tmp_path)], check=True, timeout=120)
 
 
+def test_S1_a_cue_that_came_after_the_end_while_the_clock_stood_is_not_counted(trial, tmp_path):
+    for name in "summary.csv", "trial.bag":
+        shutil.copy(trial / name, tmp_path)
+    with rosbag.Bag(str(tmp_path / "trial.bag"), "a") as bag:
+        end = next((event, at) for _, event, at in bag.read_messages("/navvi/events") if event.type == "TRIAL_END")
+        cue = next(cue for _, cue, _ in bag.read_messages("/navvi/cues") if cue.modality == cue.SPEECH and cue.stage == cue.STARTED)
+        cue.id, cue.header.stamp = 100000, end[0].header.stamp
+        bag.write("/navvi/cues", cue, end[1])
+    subprocess.run(["rosrun", "navvi_study", "count_trial", "bag", str(tmp_path)], check=True, timeout=120)
+
+
+def test_R3_a_bag_that_differs_as_it_lacks_messages_says_so(trial, tmp_path):
+    (tmp_path / "summary.csv").write_bytes((trial / "summary.csv").read_bytes())
+    with rosbag.Bag(str(trial / "trial.bag")) as bag, rosbag.Bag(str(tmp_path / "trial.bag"), "w") as other:
+        for topic, message, stamp in bag.read_messages():
+            if topic != "/odom" or not 4.0 < stamp.to_sec() - bag.get_start_time() < 8.0:
+                other.write(topic, message, stamp)
+    result = subprocess.run(["rosrun", "navvi_study", "count_trial", "bag", str(tmp_path)], text=True, capture_output=True, timeout=120)
+    assert result.returncode == 1 and re.search(r"the bag lacks (3|4)\d\d messages of odometry", result.stdout), result.stdout + result.stderr
+
+
 def test_a_bag_of_another_version_is_named_as_one(trial, tmp_path):
     (tmp_path / "summary.csv").write_bytes((trial / "summary.csv").read_bytes())
     with rosbag.Bag(str(trial / "trial.bag")) as bag, rosbag.Bag(str(tmp_path / "trial.bag"), "w") as other:

@@ -153,6 +153,20 @@ class Command(Programs):
         self.reader.join(10)
         return self.text()
 
+    def of_it(self):
+        """Number and command line of each process that was started with this session's master."""
+        found = {}
+        for folder in pathlib.Path("/proc").glob("[0-9]*"):
+            try:
+                if f"ROS_MASTER_URI={self.uri}".encode() in (folder / "environ").read_bytes().split(b"\0"):
+                    found[int(folder.name)] = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode()
+            except OSError:  # just ended, or another user's
+                pass
+        return {number: line for number, line in found.items() if line}
+
+    def kill(self, program, how=signal.SIGKILL):
+        os.kill(next(number for number, line in self.of_it().items() if program in line.split(" __name:=")[0]), how)
+
     def end(self):
         """As Ctrl-C does."""
         if self.process.poll() is None:
@@ -184,17 +198,3 @@ class Session(Command):
         """In the trial's own time."""
         end = self.simulated() + seconds
         self.wait_until(lambda: self.simulated() >= end, 60, f"{seconds} s have been simulated")
-
-    def of_it(self):
-        """Number and command line of each process that was started with this session's master."""
-        found = {}
-        for folder in pathlib.Path("/proc").glob("[0-9]*"):
-            try:
-                if f"ROS_MASTER_URI={self.uri}".encode() in (folder / "environ").read_bytes().split(b"\0"):
-                    found[int(folder.name)] = (folder / "cmdline").read_bytes().replace(b"\0", b" ").decode()
-            except OSError:  # just ended, or another user's
-                pass
-        return {number: line for number, line in found.items() if line}
-
-    def kill(self, program, how=signal.SIGKILL):
-        os.kill(next(number for number, line in self.of_it().items() if program in line.split(" __name:=")[0]), how)

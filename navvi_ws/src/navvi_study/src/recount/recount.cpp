@@ -3,6 +3,7 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <boost/algorithm/string/predicate.hpp>
 #include <stdexcept>
 
@@ -65,6 +66,7 @@ class Recount {
     for (const auto& row : told.events) {
       if (row.type == "TRIAL_START") start_ = row;
       if (row.type == "GOAL_SET") goals_.push_back(row);
+      if (row.type == "CUE" || row.type == "CUE_END") cues_.push_back(row);
       if (row.type == "TRIAL_END") end_ = row;
     }
     if (start_.type.empty()) throw std::runtime_error("the bag does not hold the trial's start");
@@ -102,7 +104,7 @@ class Recount {
     push({"TRIAL_END", fields, end_.sim_ns});
   }
 
-  [[nodiscard]] record::Trial trial() { return {rows_, tracker_.rows_until(end_.sim_ns)}; }
+  [[nodiscard]] Recounted trial() { return {{rows_, tracker_.rows_until(end_.sim_ns)}, lost_}; }
 
  private:
   void push(const trial::Event& event) {
@@ -114,10 +116,25 @@ class Recount {
     while (next_goal_ < goals_.size() && goals_[next_goal_].sim_ns <= stamp) {
       const record::Row& row = goals_[next_goal_++];
       const trial::Event event = {"GOAL_SET", row.fields, row.sim_ns};
-      if (row.sim_ns > start_.sim_ns)
-        (void)monitor_.change_goal(start_of(row).goal, row.sim_ns);
+      if (row.sim_ns > start_.sim_ns) (void)monitor_.change_goal(start_of(row).goal, row.sim_ns);
       push(event);
     }
+  }
+
+  /// A recorder that gets no processor drops what comes meanwhile. \param seq  gapless, by roscpp
+  void count_lost(std::uint32_t seq) {
+    if (last_seq_ && seq > *last_seq_) lost_ += seq - *last_seq_ - 1;
+    last_seq_ = seq;
+  }
+
+  /// At the instant of the end the clock may stand, as after the loss of the simulator: of what was
+  /// said then, that which trial_node has heard.
+  [[nodiscard]] bool was_heard(const navvi_types::CueEvent& cue) const {
+    if (cue.stamp != end_.sim_ns || cue.modality() != navvi_types::Modality::speech) return true;
+    return std::any_of(cues_.begin(), cues_.end(), [&](const record::Row& row) {
+      return row.fields.get("id") == std::to_string(cue.id) &&
+             row.fields.get("stage") == to_string(cue.stage);
+    });
   }
 
   template <typename Report>
@@ -149,6 +166,7 @@ class Recount {
     with<nav_msgs::Odometry>(item, "", [&](const auto& msg) {
       const auto report = node::from_msg(msg);
       if (!report) return;
+      if (!before && report->stamp > start_.sim_ns) count_lost(msg.header.seq);
       if ((report->stamp <= start_.sim_ns) == before) tracker_.take_odometry(*report);
       observe_all(places_.take(*report));
     });
@@ -164,7 +182,10 @@ class Recount {
     with<navvi_msgs::Contact>(item, "/navvi/contacts", observe_one);
     with<navvi_msgs::Proximity>(item, "/navvi/proximity", observe_one);
     with<navvi_msgs::Guidance>(item, "/navvi/guidance", observe_one);
-    with<navvi_msgs::Cue>(item, "/navvi/cues", observe_one);
+    with<navvi_msgs::Cue>(item, "/navvi/cues", [&](const auto& msg) {
+      const auto cue = node::from_msg(msg);
+      if (cue && was_heard(*cue)) observe(*cue, before);
+    });
     with<navvi_msgs::DriveState>(item, "/navvi/drive_state", observe_one);
     with<navvi_msgs::LinkState>(item, "/navvi/link", observe_one);
     with<navvi_msgs::StateHash>(item, "/navvi/state_hash", observe_one);
@@ -178,15 +199,16 @@ class Recount {
   record::Row start_;
   record::Row end_;
   ros::Time over_;
-  std::vector<record::Row> goals_;
+  std::vector<record::Row> goals_, cues_;
   std::size_t next_goal_ = 0;
   std::vector<record::Row> rows_;
+  std::optional<std::uint32_t> last_seq_;  ///< of the odometry
+  unsigned lost_ = 0;
 };
 
 }  // namespace
 
-record::Trial trial_from_bag(const std::filesystem::path& path,
-                             const std::filesystem::path& phrases) {
+Recounted trial_from_bag(const std::filesystem::path& path, const std::filesystem::path& phrases) {
   rosbag::Bag bag;
   bag.open(path.string(), rosbag::bagmode::Read);
   Recount recount(told_in(bag));

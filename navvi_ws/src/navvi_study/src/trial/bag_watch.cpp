@@ -130,9 +130,15 @@ bool BagWatch::growing(double time) {
 }
 
 bool BagWatch::close(double age, double tail) {
+  constexpr double kLongest = 120.0;  // s
   if (!recorder_ || !recorder_->running()) return true;
   if (age >= tail) recorder_->stop();
-  if (age > tail + recorder_->patience()) recorder_->kill();
+  // One that still writes what it holds is waited for: on a busy machine it compresses for long.
+  if (const auto size = recorder_->size(); age < tail || size > size_) {
+    size_ = size;
+    wrote_ = age;
+  }
+  if (age > wrote_ + recorder_->patience() || age > tail + kLongest) recorder_->kill();
   return false;
 }
 

@@ -15,7 +15,7 @@ class BagRecorder {
  public:
   /// Starts recording `topics` into `bag` (a path that ends in .bag). \param node_name  the
   /// recorder's name in the graph \param program  and the words before those of rosbag's record
-  /// \param patience  s, in which it closes a bag
+  /// \param patience  s, in which it closes a bag or goes on to write it
   BagRecorder(const std::filesystem::path& bag, const std::string& node_name,
               const std::vector<std::string>& topics,
               const std::vector<std::string>& program = {"/usr/lib/rosbag/record"},
@@ -63,7 +63,7 @@ class BagWatch {
   [[nodiscard]] bool growing(double time);
   /// What growth is measured from.
   void expect_growth(double time) { grew_ = went_on_ = time; }
-  /// Stops the recorder once `tail` s have passed, kills it if it takes too long.
+  /// Stops the recorder once `tail` s have passed, kills it if it does not end and writes nothing.
   /// \param age  s since the end of the trial \return whether it has gone
   [[nodiscard]] bool close(double age, double tail);
   void kill();
@@ -77,6 +77,7 @@ class BagWatch {
   bool bad_ = false;
   std::uintmax_t size_ = 0;
   double grew_ = 0.0;
+  double wrote_ = 0.0;    ///< s since the end of the trial
   double went_on_ = 0.0;  ///< when the recorder was last seen not to be halted
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <fstream>
 #include <functional>
 #include <thread>
 
@@ -60,7 +61,8 @@ TEST_F(Bag, holds_the_trial_up_until_the_recorder_hears_or_a_minute_has_passed) 
 
 TEST_F(Bag, R1_is_lost_when_it_stops_to_grow) {
   BagWatch bag(recorder("echo some >\"$3.active\"; exec sleep 60"), 10.0);
-  ASSERT_TRUE(becomes([&] { return fs::exists(folder_ / "trial.bag.active"); }));
+  const fs::path file = folder_ / "trial.bag.active";
+  ASSERT_TRUE(becomes([&] { return fs::exists(file) && fs::file_size(file) > 0; }));
   bag.expect_growth(20.0);
   EXPECT_TRUE(bag.growing(29.9));
   EXPECT_TRUE(bag.growing(31.0)) << "it grew just before";
@@ -88,6 +90,21 @@ TEST_F(Bag, is_well_only_if_the_recorder_stopped_when_asked_and_left_something) 
   EXPECT_FALSE(bag.close(3.9, 4.0)) << "the tail is not over";
   EXPECT_TRUE(becomes([&] { return bag.close(4.1, 4.0); }));
   EXPECT_EQ(bag.verdict(), "ok");
+}
+
+TEST_F(Bag, that_still_grows_is_waited_for_and_one_that_does_not_is_killed) {
+  BagWatch bag(recorder("trap : INT; echo some >\"$3.active\"\n"
+                        "while :; do sleep 0.01; done"),
+               10.0);
+  ASSERT_TRUE(becomes([&] { return fs::exists(folder_ / "trial.bag.active"); }));
+  for (const double age : {3.9, 4.1, 11.0, 18.0, 25.0}) {
+    EXPECT_FALSE(bag.close(age, 4.0));
+    std::ofstream(folder_ / "trial.bag.active", std::ios::app) << "more";
+  }
+  EXPECT_FALSE(bag.close(26.0, 4.0));
+  EXPECT_FALSE(bag.close(33.9, 4.0));
+  EXPECT_TRUE(becomes([&] { return bag.close(34.1, 4.0); }));
+  EXPECT_EQ(bag.verdict(), "bad");
 }
 
 TEST_F(Bag, R1_of_a_recorder_that_died_is_bad) {
