@@ -5,8 +5,8 @@ simulated person. It begins with six lines that tell what to press, where the
 record goes and how to stop (Ctrl-C), and ends with how it went.
 
 Exit codes
-0: the goal was reached, of a job each place. 1: it was not, or a program of the session crashed.
-2: a wrong argument, nothing started.
+0: the goal was reached, of a job each place. 1: it was not, or a program of
+the session crashed. 2: a wrong argument, nothing started.
 """
 import importlib.util
 import os

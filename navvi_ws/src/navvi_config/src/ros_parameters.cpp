@@ -89,6 +89,19 @@ bool await_master() {
   return !ending();
 }
 
+void await_readers(const ros::Publisher& topic) {
+  constexpr double kMost = 0.5, kLook = 0.01;  // s
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return;
+  std::uint32_t readers = 0;
+  for (int i = 0; i < state[1].size(); ++i)
+    if (std::string(state[1][i][0]) == topic.getTopic())
+      readers = static_cast<std::uint32_t>(state[1][i][1].size());
+  for (double waited = 0.0; waited < kMost && topic.getNumSubscribers() < readers; waited += kLook)
+    ros::WallDuration(kLook).sleep();
+}
+
 void end() { g_ending = 1; }
 bool ending() { return g_ending != 0; }
 

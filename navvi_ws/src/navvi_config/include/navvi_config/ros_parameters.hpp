@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 #include <ros/node_handle.h>
+#include <ros/publisher.h>
 #include <sys/stat.h>
 
 #include <new>
@@ -51,6 +52,10 @@ void end();  ///< ends both waits
 void spin();  ///< handles callbacks until then
 /// Lets the messages that were published leave.
 void flush();
+
+/// Waits, 0.5 s at most, for those who wait for this topic already, such as the record for the first
+/// words of a node that is started anew: what is published before a link is up, nobody gets.
+void await_readers(const ros::Publisher& topic);
 
 /// Ends this node once a master or a person asks for it by XML-RPC. Where the reason is a second
 /// node of its name, that is logged as a fatal error, and name_is_taken() from then on.

@@ -3,6 +3,7 @@
 #include <geometry_msgs/TwistStamped.h>
 
 #include <algorithm>
+#include <navvi_config/ros_parameters.hpp>
 #include <navvi_types/msg_conversion.hpp>
 
 #include "navvi_feedback/node/msg_conversion.hpp"
@@ -14,22 +15,6 @@ using navvi_types::to_msg;
 
 constexpr double kMarkers = 0.1;  // s
 constexpr char kPicture[] = "/rviz";
-
-/// Waits for those who wait for this topic already, such as the record for the words of a node that
-/// is started anew: what is published before a link is up, nobody gets. One that was killed and is
-/// still registered never comes.
-void await_readers(const ros::Publisher& topic) {
-  constexpr double kMost = 0.5, kLook = 0.01;  // s
-  XmlRpc::XmlRpcValue request, response, state;
-  request[0] = ros::this_node::getName();
-  if (!ros::master::execute("getSystemState", request, response, state, false)) return;
-  std::uint32_t readers = 0;
-  for (int i = 0; i < state[1].size(); ++i)
-    if (std::string(state[1][i][0]) == topic.getTopic())
-      readers = static_cast<std::uint32_t>(state[1][i][1].size());
-  for (double waited = 0.0; waited < kMost && topic.getNumSubscribers() < readers; waited += kLook)
-    ros::WallDuration(kLook).sleep();
-}
 
 std::int64_t stamp() { return navvi_types::to_ns(ros::Time::now()); }
 
@@ -50,7 +35,7 @@ Outlets::Outlets(ros::NodeHandle& node, const NodeConfig& config, bool own_hands
       node.advertise<visualization_msgs::MarkerArray>("navvi/markers", 1, joined, {}, {}, true);
   diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
   if (own_hands) joy_ = node.advertise<sensor_msgs::Joy>("joy", 1);
-  await_readers(cues_);
+  navvi_config::await_readers(cues_);
 }
 
 void Outlets::command(const Velocity& velocity, double lag) {

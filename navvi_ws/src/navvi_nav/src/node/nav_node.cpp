@@ -114,6 +114,7 @@ class NavNode {
     timer_ = node.createWallTimer(ros::WallDuration(kBeat),
                                   [this](const ros::WallTimerEvent&) { beat(); });
     name_frames();
+    navvi_config::await_readers(guidance_);
     publish_path();
   }
 
