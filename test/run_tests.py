@@ -3,7 +3,7 @@
 
 run_tests.py RESULT.xml WORD...: the words are ctest's; the result is its JUnit file, with the last outcome of each program. Nothing is
 repeated until it passes: what fails alone has failed. Only where programs that are not of the tests held the processors meanwhile is it
-run a third time, and at last left out ("skipped"), at most LEFT_OUT programs.
+run a third time, and at last, unless its words were the same each time, left out ("skipped"), at most LEFT_OUT programs.
 """
 import os
 import pathlib
@@ -18,6 +18,7 @@ from count_results import result_file
 BUSY = 2 / 3  # of the processors' time, held by others
 LEFT_OUT = 3
 CROWD = 10  # as many programs do not fail by chance
+CHANCE = re.compile(r"0x[0-9a-f]+|\(\d+ ms\)")  # in a reason
 REASON = re.compile(r"\[  FAILED  \] .*ms\)|FAILED |E  ")
 
 
@@ -65,15 +66,19 @@ def put(result, name, case):
     tree.write(result)
 
 
-def again(result, name):
-    """Alone. Why it is left out, where it is."""
-    alone = result + ".alone"
+def again(result, name, lines):
+    """Alone. Why it is left out, where it is. The lines told why it failed in the crowd."""
+    alone, told = result + ".alone", [lines]
     for _ in range(2):
         failed, others = run(alone, "-R", f"^{re.escape(name)}$")
+        told.append(failed.get(name))
         case = next(case for case in ElementTree.parse(alone).getroot() if case.get("name") == name)
         if not failed or others < BUSY:
             put(result, name, case)
             return ""
+    if lines and all(CHANCE.sub("", str(one)) == CHANCE.sub("", str(lines)) for one in told):
+        put(result, name, case)
+        return ""
     return f"other programs held {others:.0%} of this machine's processors"
 
 
@@ -86,7 +91,7 @@ def main():
     left_out = {}
     for name, lines in failed.items():
         print(f"run again, alone: {name}", *lines, sep="\n  ", flush=True)
-        if why := again(result, name):
+        if why := again(result, name, lines):
             left_out[name] = why
     for name, why in left_out.items():
         print(f"left out: {name}: {why}")
