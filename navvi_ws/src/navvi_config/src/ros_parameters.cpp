@@ -138,8 +138,11 @@ bool ends_alone() { return g_asked; }
 int reject(const std::string& error) {
   const pid_t launcher = is_roslaunch(::getppid()) ? ::getppid() : 0;
   ROS_FATAL("%s%s", error.c_str(), launcher != 0 ? " It is rejected, so the session ends." : "");
-  while (launcher != 0 && !ending() && ::kill(launcher, SIGINT) == 0)
-    ros::WallDuration(0.5).sleep();  // while roslaunch starts, a signal can be lost
+  // Not at once: a node that roslaunch starts just now can lose its signal.
+  while (launcher != 0 && !ending()) {
+    ros::WallDuration(1.0).sleep();
+    if (::kill(launcher, SIGINT) != 0) break;
+  }
   return 2;
 }
 
