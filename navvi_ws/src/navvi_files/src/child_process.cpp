@@ -35,8 +35,7 @@ int answer_into(std::FILE* file, const std::function<std::string()>& work) {
     code = 2;
   }
   std::string_view rest = answer;
-  return write_all(::fileno(file), rest, SystemCalls::real()) == 0 ? code
-                                                                                             : 2;
+  return write_all(::fileno(file), rest, SystemCalls::real()) == 0 ? code : 2;
 }
 
 /// \return the child's id, or -1
@@ -50,8 +49,9 @@ pid_t start(const std::function<std::string()>& work, std::FILE* file) {
 
 /// \param status  of the child, as waitpid() gives it
 Answer read_answer(std::FILE* file, int status, const std::string& crashed) {
-  if (!WIFEXITED(status)) return {false, crashed};
-  Answer answer{WEXITSTATUS(status) == 0, ""};
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  if (code != 0 && code != 2) return {false, crashed};  // also where a library ends the process
+  Answer answer{code == 0, ""};
   std::rewind(file);
   std::array<char, 4096> buffer{};
   while (const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file))
