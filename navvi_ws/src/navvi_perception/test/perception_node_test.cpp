@@ -26,6 +26,9 @@ namespace {
 
 constexpr double kPatience = 60.0;  // s
 constexpr double kRoom = 3.0;       // m, from the robot to each of four walls
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+// Sensors beside the lidar ahead; one that the node has heard once must go on, in later tests too.
+bool has_camera = false, has_rear = false;
 
 /// A robot at (10, 0) in a square room; its lidar sits 0.2 m ahead of its middle.
 class PerceptionNodeTest : public testing::Test {
@@ -87,14 +90,48 @@ class PerceptionNodeTest : public testing::Test {
     return msg;
   }
 
+  /// What faces the robot, 0.3 m wide and 0.1 m high, m in base_link.
+  [[nodiscard]] static sensor_msgs::PointCloud2 cloud(float ahead, float foot) {
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.stamp = ros::Time::now();
+    cloud.header.frame_id = "base_link";
+    sensor_msgs::PointCloud2Modifier modifier(cloud);
+    modifier.setPointCloud2FieldsByString(1, "xyz");
+    modifier.resize(100);
+    sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
+    for (int i = 0; i < 100; ++i, ++x) {
+      x[0] = ahead;
+      x[1] = static_cast<float>(i % 10) * 0.03F;
+      x[2] = foot + static_cast<float>(i / 10) * 0.01F;
+    }
+    return cloud;
+  }
+
+  /// Of the room behind, from the robot's middle.
+  [[nodiscard]] static sensor_msgs::LaserScan rear_scan(sensor_msgs::LaserScan msg) {
+    msg.header.frame_id = "rear";
+    msg.header.stamp -= ros::Duration(0.05);
+    for (std::size_t ray = 0; ray < 360; ++ray) {
+      const double angle = static_cast<double>(ray) * M_PI / 180.0;
+      const double range = kRoom / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
+      msg.ranges[ray] = ray < 85 || ray >= 270 ? kNone : static_cast<float>(range);
+    }
+    return msg;
+  }
+
   void play() {
-    frame("map", "base_link", 10.0, 0.0);
+    if (!lost_) frame("map", "base_link", 10.0, 0.0);
     frame("base_link", "laser", 0.2, 0.15);
     frame("base_link", "rear", 0.0, 0.15);
     if (disc_y_) *disc_y_ += 0.08;
     sensor_msgs::LaserScan msg = scan();
     if (spoil_) spoil_(msg);
     scans_.publish(msg);
+    if (has_camera) clouds_.publish(cloud(kRoom, 0.1F));
+    if (!has_rear) return;
+    sensor_msgs::LaserScan rear = rear_scan(scan());
+    if (spoil_rear_) spoil_rear_(rear);
+    rear_scans_.publish(rear);
   }
 
   bool until(const std::function<bool()>& done) {
@@ -110,55 +147,14 @@ class PerceptionNodeTest : public testing::Test {
   ros::WallTimer timer_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<double> disc_y_;  ///< m, in laser
-  std::function<void(sensor_msgs::LaserScan&)> spoil_;
+  std::function<void(sensor_msgs::LaserScan&)> spoil_, spoil_rear_;
+  bool lost_ = false;  ///< nothing tells where the robot is
   std::optional<octomap_msgs::Octomap> map_;
   std::optional<navvi_msgs::Obstacles> obstacles_;
   std::optional<navvi_msgs::Proximity> near_;
   std::optional<navvi_msgs::Contact> contact_;
   std::string sensing_;  ///< as in /diagnostics
 };
-
-TEST_F(PerceptionNodeTest, sees_the_room_a_mover_and_what_a_camera_adds) {
-  ASSERT_TRUE(until([this] { return near_ && !near_->things.empty(); }));
-  EXPECT_EQ(near_->header.frame_id, "base_link");
-  EXPECT_EQ(near_->things[0].thing_class, "wall");
-  EXPECT_NEAR(near_->things[0].gap, kRoom - 0.35, 0.15);
-  ASSERT_TRUE(until([this] { return map_.has_value(); }));
-  EXPECT_EQ(map_->id, "OcTree");
-  EXPECT_EQ(map_->header.frame_id, "map");
-
-  // The walls are known now; who walks by is a mover.
-  disc_y_ = -2.0;
-  ASSERT_TRUE(until([this] {
-    return obstacles_ && !obstacles_->obstacles.empty() &&
-           obstacles_->obstacles[0].velocity.y > 0.5;
-  }));
-  EXPECT_EQ(obstacles_->header.frame_id, "map");
-  EXPECT_EQ(obstacles_->obstacles[0].thing_class, "other");
-  EXPECT_NEAR(obstacles_->obstacles[0].pose.position.x, 11.5, 0.3);
-  disc_y_.reset();
-
-  // A box too low for the lidar, and one that hangs lower than navigation's robot_height of 1.2 m.
-  for (const auto& [ahead, foot] : {std::pair{1.0F, 0.0F}, {1.6F, 1.0F}})
-    ASSERT_TRUE(until([this, ahead = ahead, foot = foot] {
-      sensor_msgs::PointCloud2 cloud;
-      cloud.header.stamp = ros::Time::now();
-      cloud.header.frame_id = "base_link";
-      sensor_msgs::PointCloud2Modifier modifier(cloud);
-      modifier.setPointCloud2FieldsByString(1, "xyz");
-      modifier.resize(100);
-      sensor_msgs::PointCloud2Iterator<float> x(cloud, "x");
-      for (int i = 0; i < 100; ++i, ++x) {
-        x[0] = ahead;
-        x[1] = static_cast<float>(i % 10) * 0.03F;
-        x[2] = foot + static_cast<float>(i / 10) * 0.01F;
-      }
-      clouds_.publish(cloud);
-      for (const auto& thing : near_->things)
-        if (std::abs(thing.gap - (ahead - 0.35F)) < 0.1) return true;
-      return false;
-    }));
-}
 
 TEST_F(PerceptionNodeTest, T4_a_transform_from_the_future_keeps_out_none_that_follow) {
   ASSERT_TRUE(until([this] { return near_.has_value(); }));
@@ -233,40 +229,6 @@ TEST_F(PerceptionNodeTest, H2_loses_sensing_where_no_ray_has_a_measurement) {
   EXPECT_TRUE(until([this] { return near_.has_value(); }));
 }
 
-TEST_F(PerceptionNodeTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_not_the_robot) {
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  // Each sees its own half; the rear one, half a period later, also a mast of the robot.
-  bool behind = false;  // something stands there, 1.5 m from the middle
-  spoil_ = [&](auto& msg) {
-    for (std::size_t ray = 90; ray < 270; ++ray) msg.ranges[ray] = kNone;
-    sensor_msgs::LaserScan rear = scan();
-    rear.header.frame_id = "rear";
-    rear.header.stamp -= ros::Duration(0.05);
-    for (std::size_t ray = 0; ray < 360; ++ray) {
-      const double angle = static_cast<double>(ray) * M_PI / 180.0;
-      const double to_wall = kRoom / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
-      const bool own = ray >= 85 && ray < 95;
-      const bool thing = behind && ray >= 178 && ray <= 186;
-      rear.ranges[ray] = ray < 85 || ray >= 270 ? kNone
-                         : own                  ? 0.2F
-                         : thing                ? 1.5F
-                                                : static_cast<float>(to_wall);
-    }
-    rear_scans_.publish(rear);
-  };
-  const auto near = [this](double low, double high) {  // m, of x in base_link; not the walls
-    return std::any_of(near_->things.begin(), near_->things.end(), [&](const auto& thing) {
-      return thing.nearest.x >= low && thing.nearest.x <= high && thing.gap < 2.0;
-    });
-  };
-  near_.reset();
-  ASSERT_TRUE(until([&] { return near_ && !near_->things.empty(); }));
-  behind = true;
-  disc_y_ = -2.0;
-  EXPECT_TRUE(until([&] { return near(-1.7, -1.3) && near(1.0, 1.7); }));
-  EXPECT_FALSE(near(-0.35, 0.35)) << "the mast";
-}
-
 TEST_F(PerceptionNodeTest, tells_nothing_of_scans_that_cannot_be_used_and_goes_on_after_them) {
   ASSERT_TRUE(until([this] { return near_.has_value(); }));
   const std::vector<std::function<void(sensor_msgs::LaserScan&)>> faults = {
@@ -312,6 +274,96 @@ TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_is_one_contact_ahead) {
     return contact_.has_value();
   }));
   EXPECT_EQ(contact_->seq, 2U);
+}
+
+TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_where_the_robot_is_lost_is_a_contact) {
+  ASSERT_TRUE(until([this] { return near_.has_value() && bumper_.getNumSubscribers() > 0; }));
+  std_msgs::Bool pressed;
+  bumper_.publish(pressed);
+  lost_ = true;
+  near_.reset();
+  sensing_.clear();
+  ASSERT_TRUE(until([this] { return sensing_.find("not sensed") != std::string::npos; }));
+  contact_.reset();
+  pressed.data = 1;
+  ASSERT_TRUE(until([&, this] {
+    bumper_.publish(pressed);
+    return contact_.has_value();
+  }));
+  EXPECT_NEAR(contact_->point.x, 10.35, 1e-6) << "where it was last";
+  lost_ = false;
+}
+
+TEST_F(PerceptionNodeTest, sees_the_room_a_mover_and_what_a_camera_adds) {
+  ASSERT_TRUE(until([this] { return near_ && !near_->things.empty(); }));
+  EXPECT_EQ(near_->header.frame_id, "base_link");
+  EXPECT_EQ(near_->things[0].thing_class, "wall");
+  EXPECT_NEAR(near_->things[0].gap, kRoom - 0.35, 0.15);
+  ASSERT_TRUE(until([this] { return map_.has_value(); }));
+  EXPECT_EQ(map_->id, "OcTree");
+  EXPECT_EQ(map_->header.frame_id, "map");
+
+  // The walls are known now; who walks by is a mover.
+  disc_y_ = -2.0;
+  ASSERT_TRUE(until([this] {
+    return obstacles_ && !obstacles_->obstacles.empty() &&
+           obstacles_->obstacles[0].velocity.y > 0.5;
+  }));
+  EXPECT_EQ(obstacles_->header.frame_id, "map");
+  EXPECT_EQ(obstacles_->obstacles[0].thing_class, "other");
+  EXPECT_NEAR(obstacles_->obstacles[0].pose.position.x, 11.5, 0.3);
+  disc_y_.reset();
+
+  has_camera = true;
+  // A box too low for the lidar, and one that hangs lower than navigation's robot_height of 1.2 m.
+  for (const auto& [ahead, foot] : {std::pair{1.0F, 0.0F}, {1.6F, 1.0F}})
+    ASSERT_TRUE(until([this, ahead = ahead, foot = foot] {
+      clouds_.publish(cloud(ahead, foot));
+      for (const auto& thing : near_->things)
+        if (std::abs(thing.gap - (ahead - 0.35F)) < 0.1) return true;
+      return false;
+    }));
+}
+
+TEST_F(PerceptionNodeTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_not_the_robot) {
+  // Each sees its own half; the rear one, half a period later, also a mast of the robot.
+  bool behind = false;  // something stands there, 1.5 m from the middle
+  spoil_ = [&](auto& msg) {
+    for (std::size_t ray = 90; ray < 270; ++ray) msg.ranges[ray] = kNone;
+  };
+  has_rear = true;
+  spoil_rear_ = [&](auto& msg) {
+    for (std::size_t ray = 85; ray < 95; ++ray) msg.ranges[ray] = 0.2F;
+    for (std::size_t ray = 178; behind && ray <= 186; ++ray) msg.ranges[ray] = 1.5F;
+  };
+  const auto near = [this](double low, double high) {  // m, of x in base_link; not the walls
+    return std::any_of(near_->things.begin(), near_->things.end(), [&](const auto& thing) {
+      return thing.nearest.x >= low && thing.nearest.x <= high && thing.gap < 2.0;
+    });
+  };
+  near_.reset();
+  ASSERT_TRUE(until([&] { return near_ && !near_->things.empty(); }));
+  behind = true;
+  disc_y_ = -2.0;
+  EXPECT_TRUE(until([&] { return near(-1.7, -1.3) && near(1.0, 1.7); }));
+  EXPECT_FALSE(near(-0.35, 0.35)) << "the mast";
+}
+
+TEST_F(PerceptionNodeTest, H2_loses_sensing_where_one_of_its_sensors_falls_silent) {
+  has_camera = has_rear = true;
+  for (bool* const sensor : {&has_rear, &has_camera}) {
+    ASSERT_TRUE(until([this] { return near_.has_value(); }));
+    *sensor = false;
+    const std::string name = sensor == &has_rear ? "rear/scan" : "points";
+    EXPECT_TRUE(until([&] { return sensing_.find(name + ": no message") != std::string::npos; }));
+    near_.reset();
+    sensing_.clear();
+    ASSERT_TRUE(until([this] { return !sensing_.empty(); }));
+    EXPECT_FALSE(near_) << "the lidar ahead goes on";
+    *sensor = true;
+    near_.reset();
+  }
+  EXPECT_TRUE(until([this] { return near_.has_value(); }));
 }
 
 }  // namespace

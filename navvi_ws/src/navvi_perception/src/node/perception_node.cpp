@@ -29,6 +29,7 @@ constexpr double kRate = 20.0;           // Hz, of proximity
 constexpr double kReport = 1.0;          // s, between two diagnostics
 constexpr int kBegins = 10;              // of these, in which the first sight may come
 constexpr double kFresh = 0.5;           // s without a sight, after which nothing is known
+constexpr double kSilent = 2.0;  // s, and a period of clouds, likewise for each sensor
 
 struct NodeConfig {
   see::PerceptionConfig core;
@@ -104,6 +105,8 @@ class PerceptionNode {
     std::string topic;
     SensorQueue queue;
     std::int64_t last = 0;   ///< ns, its last stamp
+    ros::Time taken = {};      ///< when its last sight was; 0: none yet
+    std::string refused = {};  ///< why its last message was, if it was
     bool sees_body = false;  ///< its own robot, which was logged
   };
 
@@ -198,6 +201,7 @@ class PerceptionNode {
   }
 
   void refuse(std::size_t sensor, const std::string& why) {
+    sensors_[sensor].refused = why;
     if (count(sensors_[sensor].topic, why))
       ROS_WARN("A message on %s was dropped: %s. More of this kind are dropped unsaid.",
                sensors_[sensor].topic.c_str(), why.c_str());
@@ -216,13 +220,16 @@ class PerceptionNode {
     (void)robot_now();  // a transform from the future would bend those before it
     const auto eye = in_map(header.frame_id, header.stamp);
     const auto robot = in_map(config_.base_frame, header.stamp);
-    if (!eye || !robot) return false;
+    if (!eye || !robot) {
+      sensors_[sensor].refused = last_refusal_;
+      return false;
+    }
     sight.stamp = navvi_types::to_ns(header.stamp);
     std::int64_t& last = sensors_[sensor].last;
     if ((navvi_types::from_ns(last) - header.stamp).toSec() > SensorQueue::kOld) {
       ROS_WARN("Time jumped back; what was seen is forgotten.");
       perception_ = std::make_unique<see::Perception>(config_.core, prior_);
-      for (Sensor& one : sensors_) one.last = 0;
+      for (Sensor& one : sensors_) one.last = 0, one.taken = {};
     } else if (sight.stamp < last) {
       refuse(sensor, "a later one came before it");
       return false;
@@ -252,7 +259,8 @@ class PerceptionNode {
     const auto found =
         navvi_types::newest(buffer_, config_.map_frame, config_.base_frame, ros::Time::now());
     const auto pose = found ? pose_of(found->transform) : std::nullopt;
-    return pose ? std::optional(flat(*pose)) : std::nullopt;
+    if (!pose) return std::nullopt;
+    return robot_ = flat(*pose);
   }
 
   void take(const sight::Sight& sight) {
@@ -263,7 +271,8 @@ class PerceptionNode {
     note_body(sight);
     perception_->take(sight);
     sight_ = sight.stamp;
-    taken_ = ros::Time::now();
+    taken_ = sensors_[sight.sensor].taken = ros::Time::now();
+    sensors_[sight.sensor].refused.clear();
     const navvi_types::Obstacles told = perception_->obstacles(sight.stamp);
     navvi_msgs::Obstacles obstacles = navvi_types::to_msg(told);
     obstacles.header.frame_id = config_.map_frame;
@@ -277,13 +286,14 @@ class PerceptionNode {
     Sensor& sensor = sensors_[sight.sensor];
     if (sensor.sees_body) return;
     const double radius = config_.core.robot_radius();
-    const auto inside = std::count_if(
-        sight.hits.begin(), sight.hits.end(), [&](const Eigen::Vector3d& hit) {
+    const auto inside =
+        std::count_if(sight.hits.begin(), sight.hits.end(), [&](const Eigen::Vector3d& hit) {
           return (hit.head<2>() - sight.robot.position).norm() <= radius;
         });
     if (inside == 0) return;
     sensor.sees_body = true;
-    ROS_INFO("%s: %zu of %zu points lie within perception/robot_radius (%.2f m) of %s. They are "
+    ROS_INFO(
+        "%s: %zu of %zu points lie within perception/robot_radius (%.2f m) of %s. They are "
              "the robot's own body, and left out.",
              sensor.topic.c_str(), static_cast<std::size_t>(inside), sight.hits.size(), radius,
              config_.base_frame.c_str());
@@ -299,11 +309,20 @@ class PerceptionNode {
     seen_.publish(seen);
   }
 
-  /// By a sight that came within kFresh and is not old.
+  /// One that gave sights, but none for long: a side of the robot, or a height, is not seen.
+  [[nodiscard]] const Sensor* silent(const ros::Time& now) const {
+    for (const Sensor& one : sensors_)
+      if (!one.taken.isZero() && (now - one.taken).toSec() > kSilent + 1.0 / config_.cloud_rate)
+        return &one;
+    return nullptr;
+  }
+
+  /// By a sight that came within kFresh and is not old, and by all sensors that gave one.
   [[nodiscard]] bool sees(const ros::Time& now) const {
     const double since = (now - taken_).toSec();
     const double age = (now - navvi_types::from_ns(sight_)).toSec();
-    return sight_ != 0 && std::abs(since) <= kFresh && std::abs(age) <= SensorQueue::kOld;
+    return sight_ != 0 && std::abs(since) <= kFresh && std::abs(age) <= SensorQueue::kOld &&
+           silent(now) == nullptr;
   }
 
   void tell_what_is_near() {
@@ -319,15 +338,17 @@ class PerceptionNode {
   /// Once a second; the log tells what is lost, and not again before it was back.
   void report() {
     using diagnostic_msgs::DiagnosticStatus;
-    const bool seen = sees(ros::Time::now());
-    const std::string why = last_refusal_.empty() ? "no message came" : last_refusal_;
+    const ros::Time now = ros::Time::now();
+    const bool seen = sees(now);
+    std::string why = last_refusal_.empty() ? "no message came" : last_refusal_;
+    if (const Sensor* const one = silent(now))
+      why = one->topic + ": " + (one->refused.empty() ? "no message came" : one->refused);
     if (seen && std::exchange(lost_, false)) ROS_INFO("Obstacles are sensed again.");
     const bool begins = sight_ == 0 && ++reports_ < kBegins;
     if (!seen && !begins && !std::exchange(lost_, true))
-      ROS_WARN("Obstacles are not sensed: no scan or cloud of the last %.1f s can be used (%s).",
-               kFresh, why.c_str());
+      ROS_WARN("Obstacles are not sensed: no scan or cloud of late can be used (%s).", why.c_str());
     diagnostic_msgs::DiagnosticArray array;
-    array.header.stamp = ros::Time::now();
+    array.header.stamp = now;
     DiagnosticStatus& status = array.status.emplace_back();
     status.name = "navvi/sensing";
     status.level = !seen ? DiagnosticStatus::ERROR
@@ -344,12 +365,11 @@ class PerceptionNode {
   }
 
   void on_bumper(const std_msgs::Bool& bumper) {
-    const bool begins = bumper.data && !touches_;
-    touches_ = bumper.data;
-    const auto robot = begins ? robot_now() : std::nullopt;
-    if (!robot) return;
+    (void)robot_now();  // where it was last, if it is not known now
+    if (bumper.data && !robot_) return;
+    if (std::exchange(touches_, bumper.data) || !bumper.data) return;
     navvi_msgs::Contact msg =
-        navvi_types::to_msg(perception_->bump(*robot, navvi_types::to_ns(ros::Time::now())));
+        navvi_types::to_msg(perception_->bump(*robot_, navvi_types::to_ns(ros::Time::now())));
     msg.header.frame_id = config_.map_frame;
     contacts_.publish(msg);
   }
@@ -357,6 +377,7 @@ class PerceptionNode {
   NodeConfig config_;
   sight::Prior prior_;
   std::unique_ptr<see::Perception> perception_;
+  std::optional<navvi_types::Pose2> robot_;  ///< where it was last
   tf2_ros::Buffer buffer_;
   navvi_types::TransformListener listener_{buffer_, config_.odom_frame};
   boost::signals2::connection moved_;  ///< calls when a transform comes

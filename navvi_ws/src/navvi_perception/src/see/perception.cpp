@@ -68,17 +68,16 @@ struct Perception::Parts {
     std::int64_t mapped = 0;  ///< ns
   };
 
-  Parts(const Values& values, const sight::Prior& prior)
-      : config(values), map(values.map, prior) {}
+  Parts(const Values& values, const sight::Prior& prior) : config(values), map(values.map, prior) {}
 
   /// The points that the map does not explain; all others, but for those of movers that a lower
   /// sensor tells, are added to `rest`.
   [[nodiscard]] std::vector<Eigen::Vector3d> strange(const sight::Sight& sight,
                                                      std::vector<Eigen::Vector3d>& rest) const;
   void look_up(const navvi_types::Pose2& robot);
-  /// Tracks that are told: of a lower sensor where two see the same.
+  /// Tracks that are told at the stamp, ns: of a lower sensor where two see the same.
   template <typename Visit>
-  void for_each_track(const Visit& visit) const;
+  void for_each_track(std::int64_t stamp, const Visit& visit) const;
 
   Values config;
   map::LocalMap map;
@@ -102,11 +101,12 @@ std::vector<Eigen::Vector3d> Perception::Parts::strange(const sight::Sight& sigh
   const auto told = [&](const Eigen::Vector2d& hit) {
     return std::any_of(sensors.begin(), sensors.begin() + static_cast<std::ptrdiff_t>(sight.sensor),
                        [&](const Sensor& lower) {
-                         return std::any_of(lower.tracker.now().begin(), lower.tracker.now().end(),
+                         return std::any_of(
+                             lower.tracker.now().begin(), lower.tracker.now().end(),
                                             [&](const tracks::Track& track) {
-                                              return track.mover && lower.tracker.sure(track) &&
-                                                     (hit - track.place).norm() <
-                                                         track.radius + config.kGap;
+                               return track.mover &&
+                                      lower.tracker.sure(track, seconds(sight.stamp)) &&
+                                      (hit - track.place).norm() < track.radius + config.kGap;
                                             });
                        });
   };
@@ -168,7 +168,7 @@ void Perception::take(const sight::Sight& sight) {
 }
 
 template <typename Visit>
-void Perception::Parts::for_each_track(const Visit& visit) const {
+void Perception::Parts::for_each_track(std::int64_t stamp, const Visit& visit) const {
   std::vector<const tracks::Track*> told;
   for (const Sensor& sensor : sensors) {
     const std::size_t before = told.size();
@@ -178,7 +178,7 @@ void Perception::Parts::for_each_track(const Visit& visit) const {
                       [&](const tracks::Track* other) {
                         return (other->place - track.place).norm() < other->radius + track.radius;
                       });
-      if (known || !sensor.tracker.sure(track)) continue;
+      if (known || !sensor.tracker.sure(track, seconds(stamp))) continue;
       told.push_back(&track);
       visit(track, sensor.tracker.drives(track));
     }
@@ -188,7 +188,7 @@ void Perception::Parts::for_each_track(const Visit& visit) const {
 navvi_types::Obstacles Perception::obstacles(std::int64_t stamp) const {
   navvi_types::Obstacles out{stamp, {}};
   const double floor = parts_->config.map.floor;
-  parts_->for_each_track([&](const tracks::Track& track, bool drives) {
+  parts_->for_each_track(stamp, [&](const tracks::Track& track, bool drives) {
     navvi_types::MovingThing thing;
     thing.id = track.id;
     thing.pose.position = track.place;
@@ -242,7 +242,7 @@ navvi_types::Proximity Perception::proximity(const navvi_types::Pose2& robot, st
     add(thing.id, longest * side >= config.wall ? ThingClass::wall : ThingClass::other, best,
         false);
   }
-  parts.for_each_track([&](const tracks::Track& track, bool) {
+  parts.for_each_track(stamp, [&](const tracks::Track& track, bool) {
     add(track.id, ThingClass::other,
         *std::min_element(track.surface.begin(), track.surface.end(), nearer), track.mover);
   });

@@ -297,6 +297,22 @@ TEST_F(PerceptionTest, a_low_thing_that_only_a_camera_sees_stands_though_the_pri
   EXPECT_FALSE(proximity().things[0].moving);
 }
 
+TEST_F(PerceptionTest, H2_what_a_sensor_tracked_that_fell_silent_is_told_no_more) {
+  with_prior();
+  hall_.discs = {{{1.5, -3.0}, 0.24}};
+  (void)live(4.0, [&](double time) { hall_.discs[0].at.y() = -3.0 + time; });
+  ASSERT_FALSE(obstacles().things.empty());
+  for (const double end = time_ + 2.0; time_ < end; time_ += 0.1) {
+    sight::Sight wall;  // seen by another
+    wall.sensor = 1;
+    wall.stamp = std::llround(time_ * 1e9);
+    for (double y = -1.0; y < 1.0; y += 0.05) wall.hits.emplace_back(6.0, y, 0.3);
+    perception_->take(wall);
+  }
+  EXPECT_TRUE(obstacles().things.empty());
+  for (const auto& thing : proximity().things) EXPECT_FALSE(thing.moving);
+}
+
 TEST_F(PerceptionTest, the_robot_does_not_see_itself) {
   hall_.own_body = true;
   (void)live(5.0, [&](double time) { hall_.robot.yaw = 0.2 * time; });

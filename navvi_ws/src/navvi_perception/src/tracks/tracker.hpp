@@ -56,9 +56,10 @@ class Tracker {
                                   const std::vector<Eigen::Vector3d>& points, double time,
                                   std::uint32_t& next);
   [[nodiscard]] const std::vector<Track>& now() const { return tracks_; }
-  /// True if it is to be told.
-  [[nodiscard]] bool sure(const Track& track) const {
-    return track.sightings >= config_.kSightings && !track.settled;
+  /// True if it is to be told. \param time  s; the sensor may have been silent since it was seen
+  [[nodiscard]] bool sure(const Track& track, double time) const {
+    return track.sightings >= config_.kSightings && !track.settled &&
+           time - track.seen <= config_.kKeep;
   }
   /// True if it moves now.
   [[nodiscard]] bool drives(const Track& track) const {
