@@ -65,6 +65,11 @@ class Lockstep : public testing::Test {
       }
     }
   }
+  /// The clock is set.
+  void jump(double by) {
+    time_ += by;
+    navigator_.reset_times(by);
+  }
   /// Moves the robot to where guidance steers.
   void drive(double step) {
     const Guidance now = status();

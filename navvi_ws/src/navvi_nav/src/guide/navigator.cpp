@@ -109,7 +109,7 @@ void Navigator::drop_goal(Guidance::State state) {
   guidance_.detail.clear();
 }
 
-void Navigator::reset_times() {
+void Navigator::reset_times(double jump) {
   observation_.reset_times();
   trigger_.reset();
   keeper_.reset();
@@ -118,8 +118,8 @@ void Navigator::reset_times() {
   second_ask_.reset();
   goal_.at_end.reset();
   sent_.carved.reset();
-  if (sent_.since) sent_.since = 0.0;
-  if (map_.sent) map_.sent = 0.0;
+  for (auto* const time : {&sent_.since, &map_.sent, &map_.time, &map_.mesh_time, &cut_off_})
+    if (*time) **time += jump;
 }
 
 std::optional<navvi_types::ZoneState> Navigator::zone(double time) const {

@@ -78,7 +78,8 @@ class Navigator {
   /// A goal message that cannot even be read is dropped whole: a goal that stands stays. Only
   /// without one the refusal is reported. \returns true if a goal stands
   bool drop_bad_goal(Guidance::Refusal refusal, const std::string& detail);
-  void reset_times();
+  /// \param jump  s, by which the clock was set; negative: back. Ages go on as they were.
+  void reset_times(double jump);
 
   /// Brings everything up to `time`. \returns the next request to the planner, if one is due and
   /// none of its kind is being answered: those that bring a map, and all others

@@ -349,11 +349,35 @@ TEST_F(Lockstep, cuts_no_hole_for_what_moves_far_off) {
 
 TEST_F(Lockstep, survives_time_jumping_back) {
   lead({14, 5});
-  time_ = 1.0;
-  navigator_.reset_times();
+  jump(-1.0);
   EXPECT_EQ(status().state, Guidance::State::pose_stale);
   tick(60);
   EXPECT_EQ(status().state, Guidance::State::following);
+}
+
+TEST_F(Lockstep, keeps_ages_where_time_jumps_back) {
+  time_ = 1e9;
+  load();
+  tick(100);
+  jump(-100.0);
+  EXPECT_NEAR(*status().map_age, 100 * kTick, kTick + 1e-9) << "as of a map that came before";
+  navigator_.set_map(message_of(world_));
+  time_ += kTick;
+  const auto request = navigator_.update(time_);
+  ASSERT_TRUE(request && request->map);
+  jump(-100.0);
+  navigator_.deliver(planner_.answer(*request), time_);
+  EXPECT_NEAR(*status().map_age, 0.0, 1e-6) << "of a map that was being baked";
+}
+
+TEST_F(Lockstep, calls_the_map_stale_where_time_jumps_back_too) {
+  config_.map_timeout = 3.0;
+  navigator_ = Navigator(config_);
+  time_ = 1e9;
+  lead({14, 5});
+  jump(-100.0);
+  tick(80);
+  EXPECT_EQ(status().state, Guidance::State::map_stale);
 }
 
 /// A room of 16 x 10 m; the robot is to go along y = 5 from x = 2 to x = 14. What the planner finds
