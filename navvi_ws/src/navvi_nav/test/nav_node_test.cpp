@@ -377,9 +377,9 @@ TEST_F(NavNodeTest, takes_its_goal_as_an_action_as_move_base_does) {
   send_map();
   ASSERT_TRUE(until([&] { return client.isServerConnected() && !mesh_.markers.empty(); }));
   double seen = 0.0;
-  const auto ask = [&](double x) {
+  const auto ask = [&](double x, const std::string& frame = "map") {
     move_base_msgs::MoveBaseGoal goal;
-    goal.target_pose.header.frame_id = "map";
+    goal.target_pose.header.frame_id = frame;
     goal.target_pose.pose.position.x = x;
     goal.target_pose.pose.position.y = 5.0;
     goal.target_pose.pose.orientation.w = 1.0;
@@ -405,6 +405,18 @@ TEST_F(NavNodeTest, takes_its_goal_as_an_action_as_move_base_does) {
   EXPECT_TRUE(until([&] { return guidance_.state == navvi_msgs::Guidance::FOLLOWING; }));
   send_goal(13.0, 5.0);
   EXPECT_TRUE(ends_as(State::PREEMPTED)) << "another goal took its place";
+  ask(2.1, "nowhere");
+  EXPECT_TRUE(ends_as(State::ABORTED)) << "and the goal before it stands";
+  EXPECT_EQ(client.getState().getText(), "the goal's frame is not known");
+  EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
+  ask(14.0);
+  EXPECT_TRUE(until([&] { return client.getState() == State::ACTIVE; }));
+  send_goal(std::numeric_limits<double>::quiet_NaN(), 5.0);
+  for (int i = 0; i < 3; ++i) {
+    seen = 0.0;
+    EXPECT_TRUE(until([&] { return seen == 2.0; }));
+  }
+  EXPECT_EQ(client.getState(), State::ACTIVE) << "what cannot be read takes no goal's place";
   ask(2.1);
   EXPECT_TRUE(ends_as(State::SUCCEEDED)) << "the robot is there";
 }

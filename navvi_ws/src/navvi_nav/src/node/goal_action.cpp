@@ -32,12 +32,14 @@ void GoalAction::cancel() {
 
 void GoalAction::take(const geometry_msgs::PoseStamped& goal) {
   if (!server_.isActive()) return;
-  const bool own =
-      goal.header.frame_id == goal_.header.frame_id && goal.pose.position == goal_.pose.position;
-  if (own)
+  if (own(goal))
     taken_ = true;
   else
     server_.setPreempted({}, "another goal was set");
+}
+
+void GoalAction::drop(const geometry_msgs::PoseStamped& goal, const std::string& why) {
+  if (server_.isActive() && !taken_ && own(goal)) server_.setAborted({}, why);
 }
 
 void GoalAction::report(const navvi_msgs::Guidance& guidance,

@@ -6,6 +6,7 @@
 #include <navvi_msgs/Guidance.h>
 
 #include <functional>
+#include <string>
 
 namespace navvi_nav::node {
 
@@ -18,14 +19,20 @@ class GoalAction {
              std::function<void(const geometry_msgs::PoseStamped&)> set_goal,
              std::function<void()> cancel_goal);
 
-  /// Each goal that the topic brings: the action's, or one that takes its place.
+  /// A goal of the topic to which it leads now: the action's, or one that takes its place.
   void take(const geometry_msgs::PoseStamped& goal);
+  /// A goal of the topic that is dropped. \param why  for the client, if it is the action's
+  void drop(const geometry_msgs::PoseStamped& goal, const std::string& why);
   /// Each guidance that is published. \param robot  as it is now
   void report(const navvi_msgs::Guidance& guidance, const geometry_msgs::PoseStamped& robot);
 
  private:
   void accept();
   void cancel();
+  [[nodiscard]] bool own(const geometry_msgs::PoseStamped& goal) const {
+    return goal.header.frame_id == goal_.header.frame_id &&
+           goal.pose.position == goal_.pose.position;
+  }
 
   std::function<void(const geometry_msgs::PoseStamped&)> set_goal_;
   std::function<void()> cancel_goal_;

@@ -102,7 +102,7 @@ class NavNode {
             [this](const navvi_types::LinkState& link) {
               navigator_.set_foresight(link.foresight);
             }),
-        node.subscribe("move_base_simple/goal", 1, &NavNode::on_goal, this)};
+        node.subscribe("move_base_simple/goal", 10, &NavNode::on_goal, this)};
     goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     action_.emplace(
         node, [this](const geometry_msgs::PoseStamped& goal) { goals_.publish(goal); },
@@ -144,19 +144,21 @@ class NavNode {
 
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& msg) {
     const std::optional<Eigen::Vector2d> goal = navvi_types::from_msg(*msg);
-    action_->take(*msg);
     if (!goal) {
-      drop_goal(Guidance::Refusal::not_finite, "the goal is not a finite point");
+      drop_goal(*msg, Guidance::Refusal::not_finite, "the goal is not a finite point");
     } else if (const std::optional<Eigen::Vector2d> there = in_map_frame(*goal, msg->header)) {
+      action_->take(*msg);
       navigator_.set_goal(*there, msg->header.stamp.toSec());
     } else {
-      drop_goal(Guidance::Refusal::unknown_frame, "the goal's frame is not known");
+      drop_goal(*msg, Guidance::Refusal::unknown_frame, "the goal's frame is not known");
     }
     publish_all();
   }
 
-  void drop_goal(Guidance::Refusal refusal, const char* what) {
+  void drop_goal(const geometry_msgs::PoseStamped& goal, Guidance::Refusal refusal,
+                 const char* what) {
     ++bad_goals_;
+    action_->drop(goal, what);
     const bool stands = navigator_.drop_bad_goal(refusal, what);
     ROS_WARN("A goal message is dropped: %s%s (%u so far).", what,
              stands ? "; the goal before it stands" : "", bad_goals_);
@@ -233,7 +235,7 @@ class NavNode {
     const double now = ros::Time::now().toSec();
     if (now < last_time_) {
       ROS_WARN("Time jumped back; poses and obstacles start afresh.");
-      navigator_.reset_times();
+      navigator_.reset_times(now - last_time_);
     }
     last_time_ = now;
     if (ros::Time::isValid()) read_pose(ros::Time(now));
