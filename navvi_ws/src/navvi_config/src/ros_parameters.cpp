@@ -80,6 +80,7 @@ void init(int& argc, char** argv, const std::string& name) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
     if (std::signal(signal, [](int) { end(); }) == SIG_IGN && signal == SIGHUP)
       std::signal(signal, SIG_IGN);  // by nohup
+  std::signal(SIGCHLD, SIG_DFL);     // where it was ignored, no child could be waited for
 }
 
 bool await_master() {

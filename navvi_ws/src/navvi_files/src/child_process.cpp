@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -65,6 +66,7 @@ void run_in_children(std::size_t count, std::size_t at_once,
                      const std::function<std::string(std::size_t)>& work,
                      const std::string& crashed,
                      const std::function<void(std::size_t, const Answer&)>& answered) {
+  std::signal(SIGCHLD, SIG_DFL);  // where it was ignored, no child could be waited for
   std::map<pid_t, std::pair<std::size_t, AnswerFile>> running;
   std::map<std::size_t, Answer> finished;  // that wait for an answer before theirs
   std::size_t started = 0;

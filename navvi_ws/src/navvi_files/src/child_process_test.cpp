@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -75,6 +76,13 @@ TEST(Children, do_not_write_again_what_waited_to_be_written) {
   const std::string out = testing::internal::GetCapturedStdout();
   EXPECT_EQ(all.size(), 6U);
   EXPECT_EQ(out, "row trace trace trace trace trace trace ");
+}
+
+TEST(Children, are_waited_for_though_whoever_started_the_program_ignored_them) {
+  std::signal(SIGCHLD, SIG_IGN);
+  const auto all = answers(3, 2, [](std::size_t index) { return std::to_string(index); });
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_TRUE(all[2].good);
 }
 
 TEST(Children, of_no_work_are_none) { EXPECT_TRUE(answers(0, 4, nullptr).empty()); }
