@@ -116,10 +116,6 @@ Floor::Floor(FloorGround ground, const FloorDistances& distances, int threads, c
   measure(threads, before);
 }
 
-Point Floor::center_of(Cell cell) const {
-  return {(cell.x + 0.5) * cell_size_, (cell.y + 0.5) * cell_size_};
-}
-
 Ground Floor::ground(Cell cell) const {
   return contains(cell) ? ground_.at(cell.x - origin_.x, cell.y - origin_.y) : Ground::none;
 }

@@ -11,10 +11,6 @@ bool overlap(const Area& a, const Area& b) {
   return both.columns() > 0 && both.rows() > 0;
 }
 
-bool contains(const Area& area, Cell at) {
-  return at.x >= area.low.x && at.y >= area.low.y && at.x < area.high.x && at.y < area.high.y;
-}
-
 double size_of(const Area& area) { return static_cast<double>(area.columns()) * area.rows(); }
 
 /// The area with each side moved to the nearest place in `to`.
@@ -165,7 +161,7 @@ class PartSurvey {
     for (int y = part.low.y; y < part.high.y; ++y)
       std::fill(out.begin() + index({part.low.x, y}), out.begin() + index({part.high.x, y}), false);
     for (const Cell at : cells)
-      if (contains(part, at)) *(out.begin() + index(at)) = true;
+      if (part.contains(at)) *(out.begin() + index(at)) = true;
     return out;
   }
   /// The floor before, with this ground in `part`.

@@ -164,7 +164,7 @@ double Course::floor_area() const {
 
 Point Course::somewhere(std::mt19937& random) const {
   const Floor& floor = *carved.nav_mesh().shared_floor();
-  const Point low = floor.center_of(floor.origin());
+  const Point low = floor.cell_size() * Point{floor.origin().x + 0.5, floor.origin().y + 0.5};
   std::uniform_real_distribution<double> x(low.x, low.x + floor.columns() * floor.cell_size());
   std::uniform_real_distribution<double> y(low.y, low.y + floor.rows() * floor.cell_size());
   Point point{x(random), y(random)};

@@ -254,7 +254,7 @@ void judge(Course& c, std::size_t places) {
         const search::Found& found = search.find(mesh, ends[i], ends[k]);
         const bool exists = truth[i][k] < VisibilityGraph::kNoWay;
         const double away = found.found && exists
-                                ? std::abs(found.length - truth[i][k]) / std::max(truth[i][k], 1e-3)
+                                ? std::abs(length_of(found.path) - truth[i][k]) / std::max(truth[i][k], 1e-3)
                                 : 0.0;
         gap = std::max(gap, away);
         wrong += found.found != exists || away > 1e-9;

@@ -12,6 +12,8 @@ using navvi_floor::Cylinder;
 using navvi_floor::Point;
 using navvi_types::kPi;
 
+inline std::size_t slot(int index) { return static_cast<std::size_t>(index); }
+
 /// Clockwise angle in [-pi, pi] by which to turn from direction `from` to direction `to`.
 inline double clockwise(Point from, Point to) { return std::atan2(cross(to, from), dot(to, from)); }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bake/map_bake.hpp"
+#include "join.hpp"
 
 namespace navvi_nav {
 

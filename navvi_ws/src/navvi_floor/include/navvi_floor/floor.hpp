@@ -168,7 +168,6 @@ class Floor {
     };
     return {number(point.x), number(point.y)};
   }
-  [[nodiscard]] Point center_of(Cell cell) const;
   [[nodiscard]] Ground ground(Cell cell) const;
   /// True if the whole cell, and grow() steps around it along each axis, keeps the margin from
   /// everything that blocks.

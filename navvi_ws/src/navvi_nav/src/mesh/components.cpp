@@ -3,11 +3,6 @@
 #include <algorithm>
 
 namespace navvi_nav::mesh {
-namespace {
-
-std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
 
 void Components::number(Mesh& mesh) {
   next_ = 0;

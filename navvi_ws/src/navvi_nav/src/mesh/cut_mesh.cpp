@@ -11,8 +11,6 @@ constexpr double kFinest = 1e-4;     // m, of a lattice step, at most
 constexpr double kSquare = 2.0;      // m, of the grids in which polygons are looked up
 constexpr double kStraight = 1e-12;  // rad, above the rounding of a sum of angles
 
-std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-
 void widen(Point& low, Point& high, Point at) {
   low = {std::min(low.x, at.x), std::min(low.y, at.y)};
   high = {std::max(high.x, at.x), std::max(high.y, at.y)};
@@ -400,10 +398,6 @@ void CutMesh::shrink() {
   if (pool_.in_use() != own_vertices_) return;
   pool_.shrink(mesh_.vertices, vertices_end_);
   components_.number(mesh_);
-}
-
-Mesh join(const std::vector<GridPolygon>& polygons, double cell_size) {
-  return CutMesh(polygons, cell_size).mesh();
 }
 
 }  // namespace navvi_nav::mesh

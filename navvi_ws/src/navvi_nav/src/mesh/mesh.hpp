@@ -77,9 +77,4 @@ inline bool operator==(const GridPolygon& a, const GridPolygon& b) {
   return a.corners == b.corners;
 }
 
-/// The mesh of `polygons`. Two of them have a portal where their edges overlap over some length,
-/// whether or not they share corners; where a portal ends within an edge, its vertex is made a
-/// corner of the polygon. So each edge between consecutive corners is a whole portal or a wall.
-[[nodiscard]] Mesh join(const std::vector<GridPolygon>& polygons, double cell_size);
-
 }  // namespace navvi_nav::mesh

@@ -7,8 +7,6 @@ namespace {
 
 constexpr double kNearlyStraight = 1e-9;  // rad, a free angle less under 180 degrees is a corner
 
-std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-
 }  // namespace
 
 int& NonManifoldVertices::walls(int vertex) {

@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::size_t kFirstBuckets = 256;
 
-std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-
 std::uint64_t bits(double value) {
   const double plain = value + 0.0;  // one zero
   std::uint64_t out = 0;

@@ -10,8 +10,6 @@ namespace {
 /// Of a hole: 8 lose nothing along axes and diagonals and 8 % at most between.
 constexpr int kHoleSides = 8;
 
-std::size_t slot(int index) { return static_cast<std::size_t>(index); }
-
 double area(double radius) { return kPi * radius * radius; }
 
 /// m^2, of the part that two circles share

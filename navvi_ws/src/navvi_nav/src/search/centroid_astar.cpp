@@ -90,7 +90,6 @@ Found centroid_astar(const mesh::Mesh& mesh, const mesh::Mesh::Place& start,
   }
   if (!out.found) return out;
   out.path = funnel(start.point, goal.point, portals_to(goal.polygon, start.polygon, nodes, mesh));
-  out.length = length_of(out.path);
   return out;
 }
 

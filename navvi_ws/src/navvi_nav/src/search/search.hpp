@@ -29,7 +29,6 @@ class Search {
                        const mesh::Mesh::Place& start, const mesh::Mesh::Place& goal) {
     found_.found = polyanya_.find(mesh, start, goal, price, found_.path);
     found_.nodes_expanded = polyanya_.nodes_expanded();
-    found_.length = length_of(found_.path);
     return found_;
   }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "join.hpp"
 #include "search/centroid_astar.hpp"
 #include "search/search.hpp"
 

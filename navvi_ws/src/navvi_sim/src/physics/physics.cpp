@@ -20,9 +20,6 @@ constexpr std::uint64_t kGatherEach = 10;  // steps
 constexpr double kEnter = 1.0;             // m, at which a thing comes into Bullet's world
 constexpr double kLeave = 1.5;             // m, at which it leaves
 
-/// rad, in (-pi, pi]
-double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
-
 btDefaultCollisionConstructionInfo pools() {
   btDefaultCollisionConstructionInfo info;
   info.m_defaultMaxPersistentManifoldPoolSize = 256;

@@ -11,9 +11,6 @@ constexpr double kWheelBase = 0.5;  // m, between the two wheels
 
 Eigen::Vector2d heading(double yaw) { return {std::cos(yaw), std::sin(yaw)}; }
 
-/// rad, in (-pi, pi]
-double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
-
 /// What the body does, if the wheels do this; m and rad, or m/s and rad/s.
 navvi_types::Velocity body_of(double left, double right) {
   return {0.5 * (left + right), (right - left) / kWheelBase};

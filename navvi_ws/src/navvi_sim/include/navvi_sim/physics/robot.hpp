@@ -1,10 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <navvi_config/field.hpp>
 #include <navvi_types/motion.hpp>
 
 namespace navvi_sim::physics {
+
+/// rad, in (-pi, pi]
+inline double wrapped(double angle) { return std::atan2(std::sin(angle), std::cos(angle)); }
 
 /// What a real robot's odometry does not count exactly. All of it is off by default, and drawn from
 /// the world's seed (wheel_odometry.hpp).
