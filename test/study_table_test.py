@@ -144,6 +144,13 @@ def test_a_job_counts_where_each_of_its_legs_was_driven_to_its_end(tmp_path, res
     assert (attempt.result, attempt.counts, len(attempt.legs)) == (result, counts, len(results))
 
 
+def test_a_job_with_a_leg_to_another_goal_has_tables_that_name_no_place(tmp_path):
+    kept = job(tmp_path)
+    begin(kept, ["reached"] * 3, driver=Legs).next("sub-01")
+    rows = table.trials(kept, kept.progress())
+    assert [(row["leg"], row["place"], row["do"]) for row in rows] == [(str(leg), "n/a", "n/a") for leg in (1, 2, 3)]
+
+
 def test_a_job_is_rehearsed_leg_by_leg_and_its_file_is_part_of_the_plan(tmp_path):
     kept = job(tmp_path)
     step = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.kind == "trial")

@@ -64,8 +64,9 @@ def trials(study, progress, strict=True):
                 row = whole if at == 0 else {**whole, "marks": 0, "interventions": 0}  # of all legs, in the first
                 summary = study.summary(person.name, attempt, trial, strict)
                 row = {**row, **{name: cell for name, cell in summary.items() if name not in NOT_OURS}, "trial": trial}
-                if places:
-                    row.update(leg=at + 1, place=places[at][2], do=places[at][3])
+                if places:  # with more legs, to another goal, nobody knows which led where
+                    place, task = places[at][2:] if len(attempt.legs) <= len(places) else ("n/a", "n/a")
+                    row.update(leg=at + 1, place=place, do=task)
                 rows.append({name: str(cell) for name, cell in row.items()})
     return rows
 

@@ -118,6 +118,8 @@ void TrialKeeper::take(const ClockOffset& clock, const Moment& now) {
               .set("source", clock.source)
               .set("offset_ns", std::to_string(clock.offset_ns)),
           monitor_.latest(), false});
+  } else if (config_.locked && (offered_.scenario || !job_.places.empty())) {
+    tell(Tone::warning, "A goal was set from outside, with no effect.");
 }
 
 void TrialKeeper::take(const TrialRequest& request, const Moment& now) {

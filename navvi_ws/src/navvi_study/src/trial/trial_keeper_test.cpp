@@ -219,6 +219,24 @@ TEST_F(Trials, of_a_study_end_when_anybody_else_sets_a_goal) {
 }
 
 TEST_F(Trials, P3_of_a_study_record_each_parameter_that_is_set_from_outside) {
+TEST_F(Trials, of_a_study_that_have_not_begun_take_nobodys_goal) {
+  for (const bool job : {false, true}) {
+    config_.job = job ? folder_.write("job.yaml", "- {name: table, x: 3, y: 0}\n") : "";
+    config_.out = (folder_ / (job ? "job" : "world")).string();
+    config_.press_to_start = config_.locked = true;
+    said_.clear();
+    offer();
+    live(1.0);
+    keeper_->take_goal({9.0, 0.0}, now());
+    live(1.0);
+    press();
+    live(1.0);
+    ASSERT_FALSE(goals_.empty());
+    EXPECT_EQ(goals_.back(), job ? Eigen::Vector2d(3.0, 0.0) : kScenario.goal);
+    EXPECT_TRUE(said("A goal was set from outside, with no effect."));
+  }
+}
+
   config_.locked = true;
   offer();
   live(1.0);
