@@ -143,7 +143,7 @@ void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now, std:
     // Also while a record is being closed: the next trial is to it.
     offered_.played = true;
     goals_.next = chosen;
-    if (phase_ == Phase::armed && !config_.press_to_start) start(chosen);
+    if (phase_ == Phase::armed && !config_.press_to_start) try_to_start();
   }
 }
 

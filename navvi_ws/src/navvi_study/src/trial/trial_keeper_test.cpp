@@ -527,6 +527,43 @@ TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_f
   report("audio");
   live(0.8, State::following, kScenario.goal);
   ASSERT_TRUE(happened("TRIAL_START"));
+/// As on a robot, where no world asks for a trial.
+TEST_F(Trials, by_a_goal_that_a_person_chooses_begin_once_bag_and_devices_are_there) {
+  config_.record = "here";
+  config_.require = {"speech"};
+  begin();
+  for (const char* device : {"audio", "speech"}) report(device);
+  live(1.0);
+  keeper_->take_goal({3.0, 0.0}, now());
+  live(1.0);
+  EXPECT_FALSE(happened("TRIAL_START")) << "nobody records it";
+  keeper_->take(DeviceReport{now().ros_ns, "speech", DeviceState::missing}, now());
+  keeper_->recorder_listens(now());
+  live(1.0);
+  keeper_->take_goal({4.0, 0.0}, now());
+  live(1.0);
+  EXPECT_FALSE(happened("TRIAL_START")) << "without speech";
+  report("speech");
+  live(1.0);
+  EXPECT_TRUE(happened("TRIAL_START"));
+  EXPECT_EQ(goals_.back().x(), 4.0);
+}
+
+/// A robot waits for hours between two trials.
+TEST_F(Trials, do_not_grow_while_they_wait) {
+  config_.once = false;
+  begin();
+  live(1.0);
+  keeper_->take_goal({3.0, 0.0}, now());
+  live(1.0, State::following, {3.0, 0.0});
+  live(9.0, State::arrived, {3.0, 0.0});
+  ASSERT_TRUE(happened("BAG_CLOSED"));
+  live(10.0);
+  const std::size_t before = ::mallinfo2().uordblks;
+  live(1000.0);
+  EXPECT_LT(::mallinfo2().uordblks, before + 100'000) << "bytes, of 20 000 reports";
+}
+
   EXPECT_FALSE(happened("DEVICE_LOST"));
   live(0.5, State::following, kScenario.goal);
   EXPECT_TRUE(happened("DEVICE_LOST")) << "after a second";
