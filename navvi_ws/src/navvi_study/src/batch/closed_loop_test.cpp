@@ -12,6 +12,7 @@
 
 #include "batch/loop_trial.hpp"
 #include "record/events.hpp"
+#include "recount/recount.hpp"
 #include "temp_folder.hpp"
 
 namespace navvi_study::batch {
@@ -462,6 +463,25 @@ TEST(BuiltInWorlds, areLedThroughAtTheRobotsRadiusFromAllOnTenThousandPaths) {
     EXPECT_GE(nearest, kRadius - kTolerance);
     EXPECT_LE(longest, 1.0 + 1e-9);
   }
+}
+
+TEST(BagOfALoop, isCountedAgainAsItsJournalAlsoWhereTheRobotSlowsByItself) {
+  ClosedLoopConfig config;
+  const auto words = {"sim/world:=training", "sim/seed:=2", "person/type:=struggling",
+                      "sim/gate/assistance:=steer"};
+  navvi_config::read(config, navvi_config::read_words({words.begin(), words.end()}), "test");
+  navvi_people::loop::ClosedLoop loop(config, navvi_people::loop::Spoken(NAVVI_PHRASES));
+  trial::TrialNodeConfig about;
+  about.limit = 60.0;
+  LoopTrial trial(about, loop, NAVVI_PHRASES);
+  const navvi_test::TempFolder folder;
+  trial.keep(folder / "trial-1", 0);
+  while (loop.step() && trial.watch()) continue;
+  const record::Summary summary = record::summarize(trial.finish());
+  EXPECT_NE(record::cell_of(summary, "assisted_s"), "0.000");
+  const auto bag = recount::trial_from_bag(folder / "trial-1" / "trial.bag",
+                                           std::filesystem::path(NAVVI_PHRASES).parent_path());
+  EXPECT_EQ(record::differences(summary, record::summarize(bag.trial)), std::vector<std::string>());
 }
 
 TEST(ClosedLoopConfig, namesEachPartAndRefusesAnUnknownOne) {

@@ -79,7 +79,7 @@ class LoopBag {
     if (told.obstacles) write("/navvi/obstacles", *told.obstacles);
     if (told.guidance) write("/navvi/guidance", *told.guidance);
     for (const auto& cue : told.cues) write("/navvi/cues", cue);
-    const int drive = 256 * told.drive.state + told.drive.reason;
+    const int drive = 65536 * told.drive.state + 256 * told.drive.reason + told.drive.assistance;
     if (drive != drive_) write("/navvi/drive_state", told.drive);
     drive_ = drive;
     const navvi_people::people::StickAndButtons& hand = loop_.hand();
@@ -108,7 +108,7 @@ class LoopBag {
   rosbag::Bag bag_;
   std::size_t hashes_ = 0;  ///< in the bag, as are
   std::size_t commands_ = 0;
-  int drive_ = -1;  ///< the last state and reason
+  int drive_ = -1;  ///< the last state, reason and assistance
 };
 
 LoopTrial::LoopTrial(trial::TrialNodeConfig config, const ClosedLoop& loop, fs::path phrases)

@@ -81,6 +81,7 @@ void TrialMonitor::start(const TrialStart& start) {
   latencies_.clear();
   links_.clear();
   stuck_cues_.clear();
+  assists_ = {};
   goal_ = {};
   world_restarted_ = false;
   clock_jumped_ = false;

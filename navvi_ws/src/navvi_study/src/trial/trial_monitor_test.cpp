@@ -160,6 +160,19 @@ TEST_F(Monitor, reports_when_the_robot_begins_and_ceases_to_steer_by_itself) {
   EXPECT_EQ(monitor_.observe(drive).at(0).fields.get("does"), "nothing");
 }
 
+TEST_F(Monitor, reports_in_each_trial_anew_that_the_robot_is_slowed) {
+  DriveState drive;
+  drive.assistance = DriveState::Assistance::slows;
+  drive.stamp = 11 * kSecond;
+  EXPECT_EQ(seen(drive), Names{"ASSISTED"});
+  monitor_.end(12 * kSecond);
+  for (const std::int64_t begin : {20, 30}) {
+    monitor_.start({begin * kSecond, {5.0, 0.0}});
+    drive.stamp = (begin + 1) * kSecond;
+    EXPECT_EQ(seen(drive), Names{"ASSISTED"}) << "as in a recount of the bag of this trial alone";
+  }
+}
+
 TEST_F(Monitor, ends_with_the_heading_and_what_is_on_either_side) {
   Odometry stood;
   stood.stamp = 11 * kSecond;
