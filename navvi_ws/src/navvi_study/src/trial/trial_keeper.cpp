@@ -31,7 +31,9 @@ std::string place_of(const Eigen::Vector2d& point) {
 }  // namespace
 
 std::optional<std::size_t> TrialKeeper::Job::at(const Eigen::Vector2d& goal) const {
-  for (std::size_t i = 0; i < places.size(); ++i)
+  std::vector<std::size_t> order = left;  // of two places at one spot that which is still to come
+  for (std::size_t i = 0; i < places.size(); ++i) order.push_back(i);
+  for (const std::size_t i : order)
     if ((places[i].at - goal).norm() < kSame) return i;
   return std::nullopt;
 }

@@ -430,6 +430,27 @@ TEST_F(Trials, of_a_job_lead_to_the_place_that_was_chosen_and_then_to_those_that
 }
 
 TEST_F(Trials, of_a_job_end_without_a_place_that_is_refused_or_takes_too_long_and_name_it) {
+TEST_F(Trials, of_a_job_that_comes_back_to_a_spot_lead_there_again_and_end) {
+  config_.job = folder_.write("job.yaml",
+                              "- {name: dock, x: 3, y: 0, do: pick}\n- {name: table, x: 6, y: 0}\n"
+                              "- {name: dock again, x: 3, y: 0, do: drop}\n");
+  config_.out = (folder_ / "out").string();
+  config_.press_to_start = true;
+  offer();
+  live(1.0);
+  for (const auto& [x, place] : {std::pair(3.0, "dock"), {6.0, "table"}, {3.0, "dock again"}}) {
+    press();
+    live(1.0, State::following, {x, 0.0});
+    EXPECT_TRUE(holds("journal.csv", std::string("job_name=") + place + ";"));
+    live(9.0, State::arrived, {x, 0.0});
+    EXPECT_EQ(waits_.place, place);
+  }
+  press();
+  live(1.0, State::arrived, {3.0, 0.0});
+  EXPECT_TRUE(keeper_->done());
+  EXPECT_TRUE(said("The job is done: 3 places."));
+}
+
   config_.job = folder_.write("job.yaml",
                               "- {name: attic, x: 500, y: 0}\n- {name: here, x: 2, y: 0}\n"
                               "- {name: table, x: 3, y: 0}\n- {name: dock, x: 6, y: 0}\n");
