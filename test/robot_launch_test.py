@@ -63,20 +63,26 @@ def places_file(folder):
 
 
 class Robot(Programs):
-    def __init__(self, master, folder):
+    def __init__(self, master, folder, *more):
         super().__init__(master)
         self.folder, self.places = folder, places_file(folder)
         self.run("rosparam", "set", "use_sim_time", "true")
         self.start("rosrun", "navvi_sim", "sim_node", "navvi/command:=/robot/command", "odom:=/robot/odom", f"_world:={WORLD}")
         self.start("/usr/bin/python3", ROOT / "test/wheels.py")
         self.guide = self.launch("robot.launch", "wheels:=/robot/cmd_vel", "odom:=/robot/odom", "input:=topic", "speech:=false", "rviz:=false",
-                                 f"out:={folder}", f"places:={self.places}", "feedback_parameters:={listener: topic}")
+                                 f"out:={folder}", f"places:={self.places}", "feedback_parameters:={listener: topic}", *more)
 
     def field(self, topic, name):
         """A number of the topic's next message."""
         text = self.run("rostopic", "echo", "-n1", f"{topic}/{name}").stdout
         found = re.search(r"-?\d+(\.\d+)?(e-?\d+)?", text)
         return float(found.group()) if found else None
+
+
+def test_a_session_ends_with_its_job_and_leaves_nobody_at_a_stick_that_is_held(master, tmp_path):
+    with Robot(master, tmp_path, f"jobs:={places_file(tmp_path)}", "limit:=1") as robot:
+        robot.guide.wait(120)
+    assert len([*tmp_path.glob("trial-*/summary.csv")]) == len(PLACES)
 
 
 @pytest.fixture(scope="module")
