@@ -238,6 +238,32 @@ def test_where_no_trial_began_the_same_world_comes_again(work):
     assert begun.runner.driven[:2] == [("easy", 1), ("easy", 1)]
 
 
+def test_a_trial_that_broke_off_does_not_count_though_a_crash_came_right_after_its_end(work, monkeypatch):
+    append = work.study.journal.append
+
+    def killed(kind, **fields):
+        append(kind, **fields)
+        if kind == "end":
+            raise KeyboardInterrupt
+    monkeypatch.setattr(work.study.journal, "append", killed)
+    with pytest.raises(KeyboardInterrupt):
+        work("aborted").next("sub-01")
+    monkeypatch.undo()
+    begun = work()
+    assert rest(begun)[0] == "s1-c1-trial-1" and begun.runner.driven[0] == ("easy", 11)
+    rows = table.trials(work.study, work.study.progress())
+    assert [(row["counts"], row["excluded"], row["excluded_by"]) for row in rows[:2]] == [("no", "the trial broke off", "rule"), ("yes", "n/a", "n/a")]
+
+
+def test_a_journal_of_before_whose_rules_wrote_rows_of_their_own_is_read(work):
+    trial = {"participant": "sub-01", "step": "s1-c1-trial-1", "attempt": 1}
+    work.study.journal.append("begin", **trial, world="easy", seed=1, replaces="")
+    work.study.journal.append("end", **trial, trial="trial-1", result="aborted", collisions=None, sums={})
+    work.study.journal.append("exclude", **trial, trial="trial-1", reason="drop-out: ended by the person", rule=True, replace=False, drop_out=True)
+    attempt = work.study.progress().person("sub-01").attempts[0]
+    assert (attempt.counts, attempt.dropped_out, attempt.final, attempt.excluded_by) == (False, True, True, "rule")
+
+
 def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):
     with pytest.raises(KeyboardInterrupt):
         work("killed").next("sub-01")

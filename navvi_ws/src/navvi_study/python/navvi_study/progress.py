@@ -119,6 +119,8 @@ class Progress:
         attempt = self._attempt(row)
         attempt.ended, attempt.trial, attempt.result, attempt.collisions = True, row["trial"], row["result"], row["collisions"]
         attempt.legs = row.get("legs", {row["trial"]: row.get("sums", {})} if row["trial"] else {})
+        if "excluded" in row:  # by a rule, which in journals of before wrote a row of its own
+            attempt.excluded, attempt.excluded_by, attempt.final, attempt.dropped_out = row["excluded"], "rule", row["drop_out"], row["drop_out"]
 
     def _done(self, row):
         self.people[row["participant"]].done[row["step"]] = row

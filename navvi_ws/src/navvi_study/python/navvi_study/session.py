@@ -57,30 +57,28 @@ class Session:
         collisions = [number(row.get(f"{what}_collision_count")) for row in rows for what in ("shelf", "obstacle")]
         sums = {path.name: {file.name: sum_of(file) for file in sorted(path.iterdir()) if file.is_file()} for path in legs}
         trial = [*sums][-1] if sums else ""
+        verdict = self._verdict(name, attempt, rows) if rows else {}
         self.study.journal.append(
             "end", participant=name, step=attempt.step, attempt=attempt.number, trial=trial, result=result_of(rows),
-            collisions=None if None in collisions or not rows else sum(collisions), **({"legs": sums} if places else {"sums": sums.get(trial, {})}))
+            collisions=None if None in collisions or not rows else sum(collisions), **({"legs": sums} if places else {"sums": sums.get(trial, {})}), **verdict)
         if not rows:
             self.say("navvi: no trial began; the same comes again with the next \"study next\".")
             return False
         for path, row in legs.items():
             self.say(f"navvi: {name}: {row['result']}, {row['elapsed_s']} s; the record is in {path}.")
-        self._apply_rules(name, attempt, trial, rows)
+        if verdict.get("drop_out"):
+            self.say(f"navvi: {name}: a {verdict['excluded'].replace(':', ',')}; nothing takes its place. If that had nothing to do with the person or the "
+                     f"condition: ./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does.")
+        elif verdict:
+            self.say(f"navvi: {name}: the trial does not count: {verdict['excluded']}.")
         return True
 
-    def _apply_rules(self, name, attempt, trial, rows):
+    def _verdict(self, name, attempt, rows):
+        """Why a trial does not count, as fields of its end: after a crash between two rows it would count."""
         if who := self._dropped_out(name, attempt, rows[-1]):
-            self.study.journal.append("exclude", participant=name, step=attempt.step, attempt=attempt.number, trial=trial,
-                                      reason=f"drop-out: ended by the {who}", rule=True, replace=False, drop_out=True)
-            self.say(f"navvi: {name}: a drop-out, ended by the {who}; nothing takes its place. If that had nothing to do with the person or the condition: "
-                     f"./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does.")
-            return
-        for rule in (*self.study.plan.exclusions, *BROKEN_OFF):
-            if any(map(rule.meets, rows)):
-                self.study.journal.append("exclude", participant=name, step=attempt.step, attempt=attempt.number, trial=trial,
-                                          reason=rule.reason, rule=True, replace=True)
-                self.say(f"navvi: {name}: the trial does not count: {rule.reason}.")
-                return
+            return {"excluded": f"drop-out: ended by the {who}", "drop_out": True}
+        reason = next((rule.reason for rule in (*self.study.plan.exclusions, *BROKEN_OFF) if any(map(rule.meets, rows))), "")
+        return {"excluded": reason, "drop_out": False} if reason else {}
 
     def _dropped_out(self, name, attempt, row):
         """Who ended a trial before goal and limit; empty where nobody did, and in practice, which goes on."""
