@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 
@@ -262,6 +263,21 @@ def test_a_journal_of_before_whose_rules_wrote_rows_of_their_own_is_read(work):
     work.study.journal.append("exclude", **trial, trial="trial-1", reason="drop-out: ended by the person", rule=True, replace=False, drop_out=True)
     attempt = work.study.progress().person("sub-01").attempts[0]
     assert (attempt.counts, attempt.dropped_out, attempt.final, attempt.excluded_by) == (False, True, True, "rule")
+
+
+def test_a_calibration_that_failed_comes_again(tmp_path):
+    kept = frozen(tmp_path, ("operator: simulated", "operator: pad\ncalibrate: true"))
+    said = []
+
+    def next_step(code):
+        live = runner.LiveRunner(kept, tmp_path / f"exits_{code}", "true")
+        Path(live.navvi).write_text(f"#!/bin/sh\nexit {code}\n")
+        Path(live.navvi).chmod(0o755)
+        return session.Session(kept, live, said.append, wait=False).next("sub-01")
+    assert next_step(1) is None and "the calibration broke off" in said[-1]
+    assert next_step(0).kind == "calibrate"
+    progress = kept.progress()
+    assert progress.next(progress.person("sub-01")).kind == "trial"
 
 
 def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):

@@ -97,9 +97,8 @@ class LiveRunner:
         self.paused = False
 
     def command(self, words, participant, lock):
-        """A command of ./navvi that needs a person."""
-        if self.study.plan.operator != "simulated":
-            self._run(words, participant, lock)
+        """A command of ./navvi that needs a person. Returns whether it was done."""
+        return self.study.plan.operator == "simulated" or self._run(words, participant, lock) == 0
 
     def close(self, folder):
         """Puts the trials of a session in order that was killed."""
@@ -116,6 +115,7 @@ class LiveRunner:
             while process.poll() is None:
                 desk.listen(0.2)
             self.paused = self.paused or desk.paused
+            return process.returncode
         finally:
             signal.signal(signal.SIGINT, before)
 
@@ -208,7 +208,7 @@ class LoopRunner:
         step.simulate(participant, items, answered)
 
     def command(self, words, participant, lock):
-        pass
+        return True
 
     def close(self, folder):
         pass

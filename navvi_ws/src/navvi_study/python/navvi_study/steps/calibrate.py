@@ -17,5 +17,7 @@ class Calibrate(Step):
         return [cls.at(place, "calibrate")] if place.plan.steps["calibrate"] and place.session == 1 else []
 
     def run(self, session, progress, person, lock):
-        session.runner.command(["calibrate", f"person:={person.name}"], person.name, lock)
-        return super().run(session, progress, person, lock)
+        if session.runner.command(["calibrate", f"person:={person.name}"], person.name, lock):
+            return super().run(session, progress, person, lock)
+        session.say(f"navvi: {person.name}: the {self} broke off; the next \"study next\" comes to it again.")
+        return False
