@@ -239,6 +239,15 @@ def test_where_no_trial_began_the_same_world_comes_again(work):
     assert begun.runner.driven[:2] == [("easy", 1), ("easy", 1)]
 
 
+def test_a_world_in_which_no_trial_began_may_be_replaced(work, tmp_path):
+    assert work("none").next("sub-01") is None
+    kept = study.Study(small(tmp_path, ("sets: {a: {world: easy, seeds: [1]}", "sets: {a: {world: easy, seeds: [5]}")))
+    kept.freeze("test", "nothing stands in it")
+    assert overview.status(kept, kept.progress())
+    begun = begin(kept)
+    assert rest(begun)[0] == "s1-c1-trial-1" and begun.runner.driven[0] == ("easy", 5)
+
+
 def test_a_trial_that_broke_off_does_not_count_though_a_crash_came_right_after_its_end(work, monkeypatch):
     append = work.study.journal.append
 

@@ -9,11 +9,8 @@ class Driven(Step):
 
     def world_for(self, progress, person):
         """What the next attempt drives in: the planned world, unless it was met and the trial does not count; then one of the reserve."""
-        before, worlds = person.of(self), (self.world, *progress.plan.reserve)
-        if before and not before[-1].trial:  # none began: nobody has met it
-            return next(world for world in worlds if (world.world, world.seed) == (before[-1].world, before[-1].seed))
-        met = {(attempt.world, attempt.seed) for attempt in person.attempts}
-        return next((world for world in worlds if (world.world, world.seed) not in met), None)
+        met = {(attempt.world, attempt.seed) for attempt in person.attempts if attempt.trial}
+        return next((world for world in (self.world, *progress.plan.reserve) if (world.world, world.seed) not in met), None)
 
     def given_up(self, progress, person):
         """Whether its trial does not count, and nothing shall replace it or no world is left for it."""
