@@ -182,6 +182,19 @@ def test_zones_that_a_session_refuses_are_neither_checked_nor_frozen(tmp_path, m
             action(args)
 
 
+@pytest.mark.parametrize("names, says", [
+    (("gate-4", "dock"), "line 1: \"name\" cannot be spoken"), (("dock", "gateofthegreatnorthernhall"), "line 2: \"name\" cannot be spoken"),
+    (("dock", "dock"), "line 2: .*dock")])
+def test_a_job_that_a_session_refuses_is_neither_checked_nor_frozen_nor_rehearsed(tmp_path, monkeypatch, names, says):
+    monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
+    monkeypatch.setitem(actions.TOOLS, "tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)
+    (tmp_path / "round.yaml").write_text("".join(f"- {{name: {name}, x: {x}, y: 0}}\n" for x, name in enumerate(names)))
+    args = words(study.Study(small(tmp_path, ("a: {world: easy", "a: {jobs: round.yaml, world: easy"))), reason=None, no_worlds=False, pictures=False, only=None)
+    for action in actions.check, actions.freeze, actions.rehearse:
+        with pytest.raises(StudyError, match=f"round.yaml.*{says}"):
+            action(args)
+
+
 @pytest.mark.parametrize("old, new, says", [
     ("lead: words", "lead: wrods", "lead\" is wrods; allowed is one of words, ticks, flow, hand"), ("feedback/lead", "feedback/ledd", "nearest is lead"),
     ("feedback/lead: words", "sim/seed: 3", "seed"),

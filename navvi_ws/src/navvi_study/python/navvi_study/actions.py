@@ -337,6 +337,7 @@ def rehearse(args):
     planned = plan_file.load(args.plan)
     _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
 
+    worlds.require_files(planned, TOOLS["tool"])
 
 def _require_runnable(plan):
     """Raises StudyError for what a session would refuse while the participant waits."""

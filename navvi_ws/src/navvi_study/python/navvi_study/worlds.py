@@ -33,7 +33,7 @@ def drive(plan, trials_bench, jobs=2):
 
 
 def require_files(plan, tool):
-    """Raises StudyError for zones that a session refuses, and for a world's file in which nothing stands; worlds with a name are drawn full."""
+    """Raises StudyError for zones and jobs that a session refuses, and for a world's file in which nothing stands; worlds with a name are drawn full."""
     def answer(*command):
         result = subprocess.run([*map(str, command)], capture_output=True, text=True, errors="replace", check=False)
         if result.returncode != 0:
@@ -42,6 +42,8 @@ def require_files(plan, tool):
 
     for zones in sorted({word for world in plan.worlds for word in plan.zones(world)}):
         answer(tool("navvi_study", "trials_bench"), "--check", zones)
+    for job in sorted({beside["jobs"] for world in plan.worlds if "jobs" in (beside := plan.beside(world))}):
+        answer(tool("navvi_feedback", "feedback_node"), "--parameters", f"places:={job}")
     for file in sorted({plan.world_file(world) for world in plan.worlds} - {None}):
         if not json.loads(answer(tool("navvi_sim", "world_tool"), "check", file))["standing"]:
             raise StudyError(f"{plan.file}: nothing stands in {file}, and a trial there measures nothing; allowed are worlds with things on their floor.")
