@@ -27,6 +27,7 @@ SHOWN = [(re.compile(pattern), text) for pattern, text in [
     (r"^RLException: (.*)", r"error: \1"),
 ]]
 FATAL = re.compile(r"FATAL|RLException")
+BEGUN = re.compile(r": Trial (trial-\S+) has begun:")
 # What ends a session before its time, after which roslaunch itself ends with 0: a required program, or one that does not stay alive.
 CRASH = re.compile(r"^process has died|.*so the session ends\.|^RLException")
 
@@ -116,10 +117,10 @@ def write(sentence):
 
 class Log:
     """Everything goes to the file, what a person reads to the screen, too. The last sentence that ended a session is `fatal`, and it has
-    `crashed` where a program did that."""
+    `crashed` where a program did that. Its trials are `begun`, by name."""
 
     def __init__(self, path):
-        self.fatal, self.crashed, self.stopping = "", False, False
+        self.fatal, self.crashed, self.stopping, self.begun = "", False, False, []
         try:
             self.file = open(path, "w", encoding="utf-8", errors="replace")
         except OSError as problem:
@@ -133,6 +134,7 @@ class Log:
         except OSError as problem:  # the session goes on; its record is not in this file
             self.file = open(os.devnull, "w")
             write(f"warning: the log cannot be written any more: {problem.strerror}.")
+        self.begun += BEGUN.findall(line)
         if FATAL.search(line):
             self.fatal = line.rpartition("]: ")[2].strip()
         self.crashed = self.crashed or bool(CRASH.match(line))

@@ -24,10 +24,9 @@ def require_end(folder, row):
         fail(f"{path} has no end (TRIAL_END), and summary.csv says that the trial ended: {row['result']}. Restore the journal from a copy.")
 
 
-def written_since(begin, out):
-    """The folders of `out` whose summary was written since `begin` (ns), in the order of their trials; one may be of an earlier session
-    that broke off, and closed only now."""
-    return sorted(path.parent for path in out.glob("trial-*/summary.csv") if path.stat().st_mtime_ns >= begin)
+def summed_up(begun, out):
+    """The folders of `out` of a session's trials, by their names in the order in which they began; others may be of another session."""
+    return [out / name for name in begun if (out / name / "summary.csv").is_file()]
 
 
 def conditions(folder):

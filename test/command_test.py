@@ -383,14 +383,16 @@ def test_check_and_show_hold_the_journal_against_the_summary(last, reason, repea
         assert check.run(args) == code and not show.run(args)
 
 
-def test_the_last_trial_of_the_session_is_its_end_also_where_an_earlier_one_is_closed_after_it(trial, monkeypatch, capsys):
+def test_the_last_trial_of_the_session_is_its_end_also_where_another_session_writes_beside_it(trial, monkeypatch, capsys):
     monkeypatch.setattr("navvi_cli.workspace.show", lambda *words: 0)
     out = trial().parent / "out"
-    for name, at in ("trial-1", 3000), ("trial-2", 2000), ("trial-3", 1000):
-        (out / name).mkdir(parents=True)
-        (out / name / "summary.csv").write_bytes((trial(seed=name[-1]) / "summary.csv").read_bytes())
-        os.utime(out / name / "summary.csv", (at, at))
-    assert run.report(out, 1500 * 10**9, ".") == 0
+    for number in "123":
+        (out / f"trial-{number}").mkdir(parents=True)
+        (out / f"trial-{number}/summary.csv").write_bytes((trial(seed=number) / "summary.csv").read_bytes())
+    log = session.Log(out / "log")
+    for name in "trial-1", "trial-2", "trial-4":
+        log.take(f"\x1b[0m[ INFO] [1700000000.5, 12.5]: Trial {name} has begun: goal at 1.00, 2.00.\x1b[0m\n")
+    assert run.report(out, log.begun, ".") == 0
     assert "trial-2" in capsys.readouterr().out
     for why in (".", "; the log LOG says why. There is no map."):
         assert refusal(lambda: run.report(out, 4000 * 10**9, why), 1) == f"the session ended without a trial{why}"

@@ -42,11 +42,11 @@ def test_a_place_to_which_no_way_leads_is_refused_before_anything_starts(tmp_pat
 
 @pytest.mark.parametrize("ends, code", [(["attic refused", "dock reached"], 1), (["dock aborted", "attic reached", "dock reached"], 0),
                                         (["dock goal_at_start", "attic reached"], 0), (["dock reached", " aborted"], 1),
-                                        ([" aborted", "dock reached"], 0)])
+                                        ([" aborted", "dock reached", "attic reached"], 0), (["dock reached"], 1), ([" reached", "dock reached"], 1)])
 def test_a_session_with_a_job_tells_whether_each_place_was_reached(monkeypatch, ends, code):
     monkeypatch.setattr(run.workspace, "show", lambda *words: None)
-    monkeypatch.setattr(trials, "written_since", lambda *words: ends)
+    monkeypatch.setattr(trials, "summed_up", lambda *words: ends)
     monkeypatch.setattr(trials, "conditions", lambda end: {"job_name": end.split(" ")[0]})
     monkeypatch.setattr(trials, "summary", lambda end: {"result": end.split(" ")[1], "reason": end.split(" ")[1]})
     monkeypatch.setattr(trials, "report", lambda end: int(not end.endswith("reached")))
-    assert run.report("out", 0, "") == code
+    assert run.report("out", [], "", 2) == code

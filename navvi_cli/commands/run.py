@@ -48,7 +48,8 @@ def run(args):
     return session(args.words)
 
 
-def session(given):
+def session(given, begun=None):
+    """\\param begun  takes the names of its trials"""
     if any(word.startswith("robot:=") for word in given):
         return far_session(given)
     launch_file = LaunchFile("live.launch")
@@ -58,17 +59,19 @@ def session(given):
     targets = ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])]
     checkers = [program("navvi_sim", "world_tool"), program("navvi_nav", "navmesh_tool"), *([FEEDBACK] if any(map(words.get, PLACES)) else [])]
     prepare(words, targets, checkers, check_by_programs)
-    return drive(launch_file, words, Network(), f"world {words['world']}, seed {words.get('seed', 1)}")
+    return drive(launch_file, words, Network(), f"world {words['world']}, seed {words.get('seed', 1)}", begun)
 
 
-def drive(launch_file, words, network, where):
-    begin = time.time_ns()
+def drive(launch_file, words, network, where, begun=None):
+    places = len(job_of(words))  # a place that is remembered meanwhile is added to the file
     log = words["out"] / f"session-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}-{network.port}.log"
     announce(words, log, network, where)
     launch = Launch(launch_file, words, log, network)
     whole = launch.run() or launch.interrupted
+    if begun is not None:
+        begun += launch.log.begun
     why = "." if launch.interrupted else f"; the log {log} says why. {launch.log.fatal}".rstrip()
-    return report(words["out"], begin, why) or int(not whole)
+    return report(words["out"], launch.log.begun, why, places) or int(not whole)
 
 
 def far_session(given):
@@ -80,7 +83,7 @@ def far_session(given):
     check(words)
     if not any(word.startswith("trial/record:=") for word in words.parameters):
         words.parameters.append("trial/record:=robot")
-    prepare(words, ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])], [FEEDBACK], check_parameters)
+    prepare(words, ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])], [FEEDBACK], check_lists)
     network = FarNetwork(where)
     words["patience"] = "900"  # over a slow connection nodes take their time to meet
     words["clock"] = network.clock()
@@ -135,6 +138,10 @@ def check(words):
     for name in filter(words.get, PLACES):
         words[name] = Path(words[name]).resolve()
     folders = [folder for folder in words.get("models", "").split(":") if folder]
+    return words.get("jobs") and yaml.safe_load(words["jobs"].read_text(encoding="utf-8")) or []
+
+
+def check_lists(words):
     for folder in folders:
         if not Path(folder).is_dir():
             fail(f"models:={folder} is not a folder; folders that exist are allowed, separated by colons.", 2)
@@ -144,16 +151,20 @@ def check(words):
 
 def check_by_programs(words):
     """The nodes would refuse the same, but only when all have started."""
+    check_lists(words)
+
+
+def job_of(words):
+    """The places of the job; none without one."""
     import yaml
     check_parameters(words)
     for name in filter(words.get, PLACES):
         accepted("feedback", FEEDBACK, [f"places:={words[name]}"])
-    job = yaml.safe_load(words["jobs"].read_text(encoding="utf-8")) if words.get("jobs") else []
-    if words.get("jobs") and not job:
+    if words.get("jobs") and not job_of(words):
         fail(f"{words['jobs']}: a job must have at least one place.", 2)
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
     Verdict(words["world"], [f"config:={config_of('navvi_sim', words['profile'])}", *session, *words.parameters_of("sim")],
-            words.parameters_of("nav"), words["profile"], places=[(place["x"], place["y"]) for place in job]).require()
+            words.parameters_of("nav"), words["profile"], places=[(place["x"], place["y"]) for place in job_of(words)]).require()
 
 
 def announce(words, log, network, where):
@@ -168,10 +179,11 @@ def announce(words, log, network, where):
          f"In a second terminal: ./navvi watch prints it in lines; for ROS tools: {network.second_terminal()}")
 
 
-def report(out, begin, why):
-    """The end of a session, by the summary of its last trial. \\param why  there is none, as the end of a sentence"""
+def report(out, begun, why, places=0):
+    """The end of a session, by the summary of its last trial. \\param begun  names of trials
+    \\param why  there is none, as the end of a sentence \\param places  of its job"""
     workspace.show(program("navvi_study", "close_trials"), out)
-    folders = trials.written_since(begin, out)
+    folders = trials.summed_up(begun, out)
     if not folders:
         fail(f"the session ended without a trial{why}")
     legs = {trials.conditions(folder).get("job_name"): folder for folder in folders}  # the last of each place of a job

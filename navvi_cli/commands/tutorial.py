@@ -40,21 +40,21 @@ def arguments(parser):
 def run(args):
     names = [word.partition(":=")[0] for word in args.words]
     hall = {} if "world" in names else {name: value for name, value in HALL.items() if name not in names}
-    begin = time.time_ns()
+    begun = []
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder) / "tutorial.csv"
         words = [*(f"{name}:={value}" for name, value in hall.items()), "lesson:=tutorial", f"feedback/record:={record}", *args.words]
         try:
-            return run_command.session(words)
+            return run_command.session(words, begun)
         finally:
             if record.exists() and record.stat().st_size:
                 out = next((word[len("out:="):] for word in args.words if word.startswith("out:=")), TRIALS)
-                keep(record.read_text(), Path(os.path.abspath(out)), begin)
+                keep(record.read_text(), Path(os.path.abspath(out)), begun)
 
 
-def keep(record, out, begin):
+def keep(record, out, begun):
     """In the trial's folder, or beside it where there was no trial; and in words."""
-    folders = trials.written_since(begin, out)
+    folders = trials.summed_up(begun, out)
     path = folders[-1] / "tutorial.csv" if folders else out / time.strftime("tutorial-%Y%m%dT%H%M%SZ.csv", time.gmtime())
     path.write_text(record)
     say(f"how the steps of the tutorial went is in {path}:")
