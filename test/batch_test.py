@@ -41,7 +41,7 @@ FIGURES = [{"name": "elapsed_s", "unit": "s", "meaning": "from start to goal", "
 
 
 def run_batch(program, args):
-    return batch.run_batch(program, FIGURES, args)
+    return batch.run_batch(program, FIGURES, args, getattr(args, "version", "1.0"))
 
 
 def stand_in(folder, seconds=0.0, broken="none"):
@@ -170,6 +170,24 @@ def test_another_batch_in_the_same_folder_and_bad_words_are_refused_by_a_sentenc
                  {"out": str(tmp_path / "b"), "shard": "3/2"}, {"out": str(tmp_path / "b"), "seeds": "9-1"}):
         with pytest.raises(BatchError, match="allowed|another"):
             run_batch(program, args_of(more.pop("out", tmp_path / "a"), **more))
+
+
+def test_a_batch_goes_on_only_as_long_as_version_and_files_are_those_with_which_it_began(tmp_path):
+    hall, zones, program = tmp_path / "hall.sdf", tmp_path / "zones.yaml", stand_in(tmp_path)
+    for path in hall, zones:
+        path.write_text("one")
+    given = {"worlds": str(hall), "conditions": f"default,zoned=nav/mesh/zones:={zones}"}
+    assert run_batch(program, args_of(tmp_path / "a", **given)) == 0 == run_batch(program, args_of(tmp_path / "a", **given))
+    zones.write_text("two")
+    with pytest.raises(BatchError, match=f"changed since it began: {zones};"):
+        run_batch(program, args_of(tmp_path / "a", **given))
+    zones.write_text("one")
+    with pytest.raises(BatchError, match="changed since it began: version;"):
+        run_batch(program, args_of(tmp_path / "a", **given, version="1.1"))
+    kept = json.loads((tmp_path / "a/batch.json").read_text())
+    (tmp_path / "a/batch.json").write_text(json.dumps({key: kept[key] for key in kept if key not in ("version", "files")}))
+    zones.write_text("two")
+    assert run_batch(program, args_of(tmp_path / "a", **given, version="1.1")) == 0, "a batch of before has neither"
 
 
 def test_a_condition_that_the_program_would_refuse_is_refused_once_and_before_any_trial(tmp_path, capsys):

@@ -44,6 +44,7 @@ def arguments(parser):
 
 
 def run(args):
+    from navvi_cli.version import version
     from navvi_cli.workspace import enter, tool
     from navvi_people import batch
     from navvi_study.table import figures
@@ -53,6 +54,6 @@ def run(args):
         batch.trials_of(args), batch.shard_of(args.shard)  # before anything is built
         program, counter = (tool("navvi_study", name) for name in ("trials_bench", "count_trial"))
         enter()
-        return batch.run_batch(program, figures(counter), args)
+        return batch.run_batch(program, figures(counter), args, version())
     except batch.BatchError as problem:
         fail(str(problem), problem.code)

@@ -3,6 +3,7 @@ import concurrent.futures
 import contextlib
 import csv
 import fcntl
+import hashlib
 import io
 import json
 import os
@@ -213,15 +214,25 @@ def simulate(program, trial, args):
     return trial, titles, line_of(cells)
 
 
-def same_batch(folder, args, trials):
-    """Keeps what the batch is, and refuses another one in its folder."""
+def sums_of(trials):
+    """SHA-256 of each file that is a world, or that a parameter names, such as zones."""
+    names = {name for trial in trials for name in (trial.world, *(word.partition(":=")[2] for word in trial.parameters))}
+    return {name: hashlib.sha256(Path(name).read_bytes()).hexdigest() for name in sorted(filter(os.path.isfile, names))}
+
+
+def same_batch(folder, args, trials, version):
+    """Keeps what the batch is, and refuses another one in its folder: rows of before would stand for what is no more."""
     mine = {"worlds": args.worlds, "seeds": args.seeds, "people": args.people, "conditions": args.conditions, "limit": args.limit,
-            "trials": len(trials)}
+            "trials": len(trials), "version": version, "files": sums_of(trials)}
     file = folder / "batch.json"
     if not file.exists():
-        replace(file, json.dumps(mine, indent=1) + "\n")
-    elif json.loads(read(file)) != mine:
-        raise BatchError(f"{folder} holds another batch, {file} names it; choose another --out.")
+        return replace(file, json.dumps(mine, indent=1) + "\n")
+    kept = json.loads(read(file))
+    changed = [key for key in mine if kept.get(key, mine[key]) != mine[key]]  # those of before have neither version nor files
+    if changed == ["files"]:
+        changed = sorted(name for name in {**mine["files"], **kept["files"]} if mine["files"].get(name) != kept["files"].get(name))
+    if changed:
+        raise BatchError(f"{folder} holds another batch, as {file} tells: changed since it began: {', '.join(changed)}; choose another --out.")
 
 
 def time_left(seconds):
@@ -294,15 +305,15 @@ def require_conditions(program, trials):
             raise BatchError(f"condition {trial.condition}, person {trial.person}: {checked.stderr.strip().removeprefix('navvi: ')}")
 
 
-def run_batch(program, figures, args):
-    """\\param program  plays a trial \\param figures  what the columns of its row mean
+def run_batch(program, figures, args, version):
+    """\\param program  plays a trial \\param figures  what the columns of its row mean \\param version  of the product
     Returns the exit code."""
     trials = trials_of(args)
     shard, shards = shard_of(args.shard)
     require_conditions(program, trials)
     folder = Path(args.out)
     folder.mkdir(parents=True, exist_ok=True)
-    same_batch(folder, args, trials)
+    same_batch(folder, args, trials, version)
     rows = Rows(folder / f"rows-{shard}-of-{shards}.csv")
     try:
         done = done_in(folder)
