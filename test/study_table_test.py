@@ -451,3 +451,16 @@ def test_an_export_has_the_names_of_bids_no_date_and_the_same_bytes_twice(work):
     lines = next(motion.glob("*_motion.tsv")).read_text().splitlines()
     assert len(lines) == 20 * 20 + 1 and lines[0].split("\t")[0] == "1.0000"  # from the begin of the trial on, 20 s at 20 Hz
     assert not any(b"2026" in content for content in first.values())
+
+
+@pytest.mark.parametrize("change, both", [
+    (("participants: sub-01..sub-04", "participants: [p-1, p1]"), "p-1 and p1 would both be sub-p1 "),
+    (("conditions: {full: {picture: false}, plain:", "conditions: {full: {picture: false}, ful-l:"), "full and ful-l would both be full ")])
+def test_an_export_in_which_two_would_have_one_name_is_refused_and_leaves_the_one_of_before(tmp_path, change, both):
+    kept = frozen(tmp_path, change, *([("[plain, full]", "[ful-l, full]")] if "ful-l" in change[1] else []))
+    before = tmp_path / "small/bids/README"
+    before.parent.mkdir()
+    before.touch()
+    with pytest.raises(StudyError, match=both):
+        export.write(kept, kept.progress(), None)
+    assert before.exists()

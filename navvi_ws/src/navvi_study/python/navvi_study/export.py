@@ -9,6 +9,7 @@ import re
 import shutil
 
 from . import table
+from .errors import StudyError
 from .record import Record
 from .study import write_safely
 
@@ -25,9 +26,13 @@ EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Uni
 def write(study, progress, read_way):
     """\\param read_way  takes a trial's folder and returns rows of (s, x, y, yaw)
     Returns the folder, which is written anew."""
-    folder = study.folder / "bids"
+    folder, plan = study.folder / "bids", progress.plan
+    for names, label in (plan.participants, _subject), ([condition.name for condition in plan.conditions], _label):
+        first = {}
+        for name in names:
+            if (other := first.setdefault(label(name), name)) != name:
+                raise StudyError(f"{plan.file}: {other} and {name} would both be {label(name)} in BIDS, which allows letters and digits alone; nothing is written.")
     shutil.rmtree(folder, ignore_errors=True)
-    plan = progress.plan
     _json(folder / "dataset_description.json", {"Name": plan.title, "BIDSVersion": VERSION, "DatasetType": "raw",
                                                 "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})
     write_safely(folder / "README", f"{plan.title}\n\nA robot in a simulated warehouse, driven by a person who is guided by touch, speech and sounds. "
