@@ -332,7 +332,8 @@ void TrialKeeper::listen() {
 
 /// What is stamped later may still come.
 void TrialKeeper::keep_track(std::int64_t until) {
-  const record::Track rows = tracker_.rows_until(std::min(until, monitor_.ended().value_or(until)));
+  if (active()) until = std::min(until, monitor_.ended().value_or(until));
+  const record::Track rows = tracker_.rows_until(until);
   if (!active() || rows.empty()) return;
   if (const auto problem = kept_.track->append(rows)) tell(Tone::error, *problem);
 }

@@ -1,6 +1,7 @@
 #include "trial/trial_keeper.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -563,6 +564,28 @@ TEST_F(Trials, by_a_goal_that_a_person_chooses_begin_once_bag_and_devices_are_th
   live(1.0);
   keeper_->take_goal({4.0, 0.0}, now());
   live(1.0);
+TEST_F(Trials, S1_that_a_crash_has_stopped_do_not_say_that_a_hand_did) {
+  run();
+  keeper_->stop(now(), "simulator_lost");
+  wait(2.0);
+  EXPECT_TRUE(holds("summary.csv", ",aborted,simulator_lost,"));
+}
+
+TEST_F(Trials, S1_that_are_stopped_while_a_part_is_silent_name_that_part) {
+  run();
+  feedback_ = false;
+  live(1.5, State::following, kScenario.goal);
+  keeper_->stop(now());
+  wait(2.0);
+  EXPECT_TRUE(holds("summary.csv", ",aborted,feedback_lost,"));
+}
+
+TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_failed) {
+  feedback_ = false;
+  offer();
+  report("audio");
+  live(0.8, State::following, kScenario.goal);
+  ASSERT_TRUE(happened("TRIAL_START"));
   EXPECT_FALSE(happened("TRIAL_START")) << "without speech";
   report("speech");
   live(1.0);
