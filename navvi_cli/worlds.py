@@ -40,6 +40,20 @@ def check_name(world):
         fail(f"{wrong}; allowed are: {' '.join(known)}, or a .yaml, .sdf or .world file.", 2)
 
 
+def check_world(words):
+    """Refuses the arguments of a world that are neither here nor drawn. Nodes run elsewhere: paths become absolute."""
+    check_name(words["world"])
+    for name in ("world", "classes"):
+        if name in words and Path(words[name]).is_file():
+            words[name] = Path(words[name]).resolve()
+    folders = [folder for folder in words.get("models", "").split(":") if folder]
+    for folder in folders:
+        if not Path(folder).is_dir():
+            fail(f"models:={folder} is not a folder; folders that exist are allowed, separated by colons.", 2)
+    if folders:
+        words["models"] = ":".join(str(Path(folder).resolve()) for folder in folders)
+
+
 def picture(word):
     """The argument type of a picture's file."""
     if Path(word).suffix not in (".svg", ".png"):

@@ -13,9 +13,9 @@ import pytest
 from conftest import free_port
 from sessions import ROOT
 from navvi_cli import arguments, network, parser, session, trials, worlds
-from navvi_cli.commands import check, replay, run, show
+from navvi_cli.commands import check, replay, robot, run, show
 from navvi_cli.main import command_names, parser_of
-from navvi_cli.say import Failure
+from navvi_cli.say import Failure, fail
 
 
 def refusal(work, code=2):
@@ -39,6 +39,18 @@ def test_a_program_that_works_for_long_is_said_to_be_at_work(monkeypatch, tmp_pa
 
     monkeypatch.setattr(worlds, "aside", hear)
     assert worlds.answer(program)[1] == {"a": 1} and said == ["still at work; a large world takes minutes."]
+
+
+def test_the_robots_side_hands_on_absolute_paths_of_a_world(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(robot, "prepare", lambda words, *more: given.update(words) or fail(None))
+    (tmp_path / "models").mkdir()
+    for name in "hall.sdf", "classes.yaml":
+        (tmp_path / name).touch()
+    given = {}
+    with pytest.raises(Failure):
+        robot.Start.run(types.SimpleNamespace(words=["world:=hall.sdf", "models:=models", "classes:=classes.yaml"]))
+    assert [str(given[name]) for name in ("world", "models", "classes")] == [str(tmp_path / name) for name in ("hall.sdf", "models", "classes.yaml")]
 
 
 # --- arguments
@@ -395,7 +407,7 @@ def test_the_last_trial_of_the_session_is_its_end_also_where_another_session_wri
     assert run.report(out, log.begun, ".") == 0
     assert "trial-2" in capsys.readouterr().out
     for why in (".", "; the log LOG says why. There is no map."):
-        assert refusal(lambda: run.report(out, 4000 * 10**9, why), 1) == f"the session ended without a trial{why}"
+        assert refusal(lambda: run.report(out, [], why), 1) == f"the session ended without a trial{why}"
 
 
 def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):

@@ -32,7 +32,7 @@ from navvi_cli.places import program
 from navvi_cli.say import say, tell
 from navvi_cli.session import Launch, accepted, check_parameters, nodes_of, prepare
 from navvi_cli.workspace import build, is_current
-from navvi_cli.worlds import check_name
+from navvi_cli.worlds import check_world
 
 SECONDS = 10.0
 
@@ -55,9 +55,7 @@ class Start:
         words = words_for(launch_file, args.words)
         address = words.pop("address", "127.0.0.1")
         if simulated:
-            check_name(words["world"])
-            if Path(words["world"]).is_file():
-                words["world"] = Path(words["world"]).resolve()
+            check_world(words)
         prepare(words, ["session"], [program("navvi_nav", "nav_node")], check_parameters)
         network = Network(address)
         for name in ("parameters", "version"):

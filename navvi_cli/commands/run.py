@@ -20,7 +20,7 @@ from navvi_cli.network import FarNetwork, Network
 from navvi_cli.places import TRIALS, config_of, program
 from navvi_cli.say import fail, say, tell
 from navvi_cli.session import Launch, accepted, check_operator, check_parameters, has_display, has_pad, prepare, resolve_rviz
-from navvi_cli.worlds import Verdict, check_name
+from navvi_cli.worlds import Verdict, check_world
 
 FEEDBACK = program("navvi_feedback", "feedback_node")
 PLACES = ("places", "jobs")  # arguments that name such a file
@@ -130,38 +130,28 @@ def check(words):
     except OSError as problem:
         fail(f"the folder {words['out']} cannot be made: {problem.strerror}; out:=FOLDER names another, such as out:=/tmp/trials.", 2)
     if "world" in words:
-        check_name(words["world"])
-    # Nodes run elsewhere: paths become absolute.
-    for name in ("world", "classes"):
-        if name in words and Path(words[name]).is_file():
-            words[name] = Path(words[name]).resolve()
+        check_world(words)
     for name in filter(words.get, PLACES):
         words[name] = Path(words[name]).resolve()
-    folders = [folder for folder in words.get("models", "").split(":") if folder]
-    return words.get("jobs") and yaml.safe_load(words["jobs"].read_text(encoding="utf-8")) or []
-
-
-def check_lists(words):
-    for folder in folders:
-        if not Path(folder).is_dir():
-            fail(f"models:={folder} is not a folder; folders that exist are allowed, separated by colons.", 2)
-    if folders:
-        words["models"] = ":".join(str(Path(folder).resolve()) for folder in folders)
-
-
-def check_by_programs(words):
-    """The nodes would refuse the same, but only when all have started."""
-    check_lists(words)
 
 
 def job_of(words):
     """The places of the job; none without one."""
     import yaml
+    return words.get("jobs") and yaml.safe_load(words["jobs"].read_text(encoding="utf-8")) or []
+
+
+def check_lists(words):
     check_parameters(words)
     for name in filter(words.get, PLACES):
         accepted("feedback", FEEDBACK, [f"places:={words[name]}"])
     if words.get("jobs") and not job_of(words):
         fail(f"{words['jobs']}: a job must have at least one place.", 2)
+
+
+def check_by_programs(words):
+    """The nodes would refuse the same, but only when all have started."""
+    check_lists(words)
     session = [f"{name}:={words[name]}" for name in ("models", "classes", "seed", "start", "goal") if name in words]
     Verdict(words["world"], [f"config:={config_of('navvi_sim', words['profile'])}", *session, *words.parameters_of("sim")],
             words.parameters_of("nav"), words["profile"], places=[(place["x"], place["y"]) for place in job_of(words)]).require()
@@ -188,5 +178,5 @@ def report(out, begun, why, places=0):
         fail(f"the session ended without a trial{why}")
     legs = {trials.conditions(folder).get("job_name"): folder for folder in folders}  # the last of each place of a job
     ends = [trials.summary(folder) for name, folder in legs.items() if name]
-    missed = any(row["result"] != "reached" and row["reason"] != "goal_at_start" for row in ends)
+    missed = len(ends) < places or any(row["result"] != "reached" and row["reason"] != "goal_at_start" for row in ends)
     return trials.report(folders[-1]) or int(missed)
