@@ -99,7 +99,7 @@ def test_D5_trials_that_broke_off_count_in_no_plan(tmp_path, results, reasons):
 
 
 @pytest.mark.parametrize("exclusions", [True, False])
-def test_D5_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, exclusions):
+def test_D5_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_path, exclusions, capsys):
     kept = frozen(tmp_path, ("sub-01..sub-04", "sub-01..sub-06"), *([] if exclusions else [(RULE, "")]))
 
     class GivingUp(Driver):
@@ -129,6 +129,7 @@ def test_D5_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_pat
                      "collisions": {"full": (6, 3.0), "plain": (4, 3.0)}}
     name = next(row["trial"] for row in rows if row["counts"] == "drop-out")
     actions.exclude(exclusion(kept, f"sub-01/{name}", "the fire alarm rang"))
+    assert "Another world takes its place." in capsys.readouterr().out
     begun = session.Session(kept, driver, say=said.append, wait=False)
     assert len(rest(begun, "sub-01")) == 1 and driver.driven[-1] == ("sub-01", 11)
 
@@ -331,7 +332,7 @@ def test_when_the_reserve_is_used_up_the_trial_is_missing_and_the_rest_goes_on(w
     assert [step.name for step in state.missing(state.person("sub-01"))] == ["s1-c1-trial-1"]
 
 
-def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path):
+def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path, capsys):
     kept = frozen(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 2, collisions_at_most: 3, most: 4}\nlimit: 60"))
     begun = begin(kept, "timeout", "reached", "reached")
     assert rest(begun).count("s1-practice") == 3
@@ -339,6 +340,8 @@ def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path):
     assert rest(begun, "sub-02").count("s1-practice") == 4
     people = kept.progress().people
     assert (people["sub-01"].done["s1-practice"]["mastered"], people["sub-02"].done["s1-practice"]["mastered"]) == (True, False)
+    actions.exclude(exclusion(kept, f"sub-01/{people['sub-01'].attempts[0].trial}", "the phone rang"))
+    assert "does not count: the phone rang.\n" in capsys.readouterr().out, "nothing is driven in its place"
 
 
 def test_nobody_drives_without_consent(tmp_path):

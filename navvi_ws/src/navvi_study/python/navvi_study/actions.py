@@ -195,7 +195,9 @@ def exclude(args):
         raise StudyError(f"{args.what} is excluded already: {attempt.excluded}.")
     study.journal.append("exclude", participant=person.name, step=attempt.step, attempt=attempt.number, trial=attempt.trial, reason=reason,
                          rule=False, replace=not args.no_replacement)
-    print(f"navvi: {person.name}/{attempt.trial} does not count: {reason}." + ("" if args.no_replacement else " Another world takes its place."))
+    state = study.progress()
+    over = person.step(attempt.step).finished(state, state.person(person.name))  # also of practice, and of a probe that was asked about
+    print(f"navvi: {person.name}/{attempt.trial} does not count: {reason}." + ("" if over else " Another world takes its place."))
 
 
 @action(PLAN, PARTICIPANT, argument("--data", metavar="delete|keep", required=True, choices=("delete", "keep"), help="what was recorded."))
@@ -333,11 +335,11 @@ def rehearse(args):
     Exit codes
     0: done. 2: the plan cannot be run, and why.
     """
-    from . import plan_file, rehearsal
+    from . import plan_file, rehearsal, worlds
     planned = plan_file.load(args.plan)
+    worlds.require_files(planned, TOOLS["tool"])
     _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
 
-    worlds.require_files(planned, TOOLS["tool"])
 
 def _require_runnable(plan):
     """Raises StudyError for what a session would refuse while the participant waits."""
