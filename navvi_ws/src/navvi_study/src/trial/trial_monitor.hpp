@@ -155,8 +155,8 @@ class TrialMonitor {
   [[nodiscard]] std::optional<std::string> refused() const { return goal_.refused; }
   /// The simulator began anew in mid trial.
   [[nodiscard]] bool world_restarted() const { return world_restarted_; }
-  /// The wheels were stopped as ROS time had jumped, if for a moment only.
   /// s, of the connection, as last told, also before a trial
+  /// The wheels were stopped as ROS time had jumped, if for a moment only.
   [[nodiscard]] double round_trip() const { return round_trip_; }
   [[nodiscard]] bool clock_jumped() const { return clock_jumped_; }
   /// ns, the latest stamp that was seen at all
