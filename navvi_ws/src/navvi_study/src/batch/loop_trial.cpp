@@ -214,9 +214,8 @@ void LoopTrial::end(const trial::Ending& ending) {
 
 const record::Trial& LoopTrial::finish() {
   if (!bag_) return seen_;
-  bag_.reset();
   push({"BAG_CLOSED", record::Fields().set("state", "ok"), now()});
-  seen_.rows.back().fields.set("utc", record::calendar(utc_ns_ + now()));
+  bag_.reset();
   std::string journal = std::string(record::kJournalHeader) + "\n";
   for (const record::Row& row : seen_.rows) journal += record::format_row(row);
   must(navvi_files::write_atomically(folder_ / "journal.csv", journal));

@@ -86,8 +86,8 @@ Of as_begun(const std::string& field) { return first("TRIAL_START", field); }
 Of as_summed(const std::string& field) {
   return [=](const Trial& trial) { return text_of(sums_of(trial), field); };
 }
-Of counts(const char* type) {
-  return [=](const Trial& trial) { return count_of(trial, type, ""); };
+Of counts(const char* type, const char* kind = "") {
+  return [=](const Trial& trial) { return count_of(trial, type, kind); };
 }
 Of counts(bool (*test)(const Row&)) {
   return [=](const Trial& trial) {
@@ -181,9 +181,6 @@ std::string hits(const Trial& trial) {
   for (const auto& [thing_class, count] : counts)
     words.push_back(thing_class + " " + std::to_string(count));
   return counts_contacts(trial) ? listed(words) : "unknown";
-}
-Of near(const char* kind) {
-  return [=](const Trial& trial) { return count_of(trial, "PROXIMITY_ENTER", kind); };
 }
 bool is_mover(const std::string& thing_class) {
   return thing_class == "worker" || thing_class == "forklift" || thing_class == "pallet_robot";
@@ -334,8 +331,9 @@ std::vector<Figure> all_figures() {
        first("ROUTE", "shortest_path")},
       {"spl", "", "shortest over driven way where the goal was reached, else 0", kSpl, value(spl)},
       {"obstacle_proximity_count", "", "times that an obstacle came within 5 m", kPaper,
-       near("obstacle")},
-      {"shelf_proximity_count", "", "times that a shelf came within 1 m", kPaper, near("shelf")},
+       counts("PROXIMITY_ENTER", "obstacle")},
+      {"shelf_proximity_count", "", "times that a shelf came within 1 m", kPaper,
+       counts("PROXIMITY_ENTER", "shelf")},
       {"mover_proximity_count", "", "times that a worker or vehicle came within 5 m", "",
        counts(is_near_mover)},
       {"least_gap_m", "m", "from the hull to anything", "", value(least_gap, 2)},

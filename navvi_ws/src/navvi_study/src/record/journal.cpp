@@ -90,9 +90,9 @@ navvi_files::Problem mend(const fs::path& folder, int file, const std::string& b
                     contents.rows.back().fields.get("reason") == "journal_damaged";
   if (open || (damaged && !said && !contents.rows.empty())) {
     const Row& last = contents.rows.back();
-    const std::string summary = navvi_files::read_file(folder / "summary.csv").value_or("");
     // What the trial's own end could not write into its journal.
-    const Summary told = parse_summary(summary).value_or(Summary());
+    const Summary told = parse_summary(navvi_files::read_file(folder / "summary.csv").value_or(""))
+                             .value_or(Summary());
     const bool invalid = damaged || cell_of(told, "result") == "invalid";
     Fields fields;
     fields.set("result", invalid ? "invalid" : "aborted")
@@ -165,15 +165,13 @@ int Journal::write(std::string_view line) {
 }
 
 std::optional<Row> Journal::append(const std::string& type, const Fields& fields,
-                                   std::int64_t sim_ns, std::int64_t mono_ns,
-                                   Durability durability) {
+                                   std::int64_t sim_ns, std::int64_t mono_ns, bool essential) {
   if (broken()) return std::nullopt;
   Row row{trial_, static_cast<std::uint32_t>(rows_.size() + 1), sim_ns, mono_ns, type, fields};
   const off_t before = ::lseek(file_, 0, SEEK_END);
   int error = write(format_row(row));
   // A failed sync may have thrown the bytes away: asking again would say yes to nothing.
-  if (error == 0 && durability == Durability::essential && calls_.fdatasync(file_) != 0)
-    error = errno;
+  if (error == 0 && essential && calls_.fdatasync(file_) != 0) error = errno;
   if (error != 0) {
     problem_ = navvi_files::failure("write the journal", error);
     // A row that may not last is not to be read as one that does.

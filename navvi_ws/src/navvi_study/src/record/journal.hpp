@@ -9,12 +9,6 @@
 
 namespace navvi_study::record {
 
-/// How long an event may take to be safe from a power cut.
-enum class Durability {
-  essential,  ///< on the disk when append() returns
-  relaxed     ///< written, but not waited for
-};
-
 /// The one record of a trial: rows are only ever appended, each by one write. After the first error
 /// it takes nothing more, because what the disk then holds is unknown.
 class Journal {
@@ -33,11 +27,12 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
+  /// \param essential  it is on the disk on return; else it is written, but not waited for
   /// \return the row as written, or nullopt if it is not certainly on the disk; the journal is then
   /// broken for good
   [[nodiscard]] std::optional<Row> append(const std::string& type, const Fields& fields,
                                           std::int64_t sim_ns, std::int64_t mono_ns,
-                                          Durability durability);
+                                          bool essential);
 
   /// A sentence, empty while all is well.
   [[nodiscard]] const std::string& problem() const { return problem_; }

@@ -30,11 +30,11 @@ class Folder : public testing::Test {
     Journal journal = open();
     Fields fields;
     fields.set("world", "a;b").set("seed", std::uint64_t{3});
-    EXPECT_TRUE(journal.append("TRIAL_START", fields, 100, 1, Durability::essential));
+    EXPECT_TRUE(journal.append("TRIAL_START", fields, 100, 1, true));
     fields = Fields().set("kind", "shelf").set("count", std::uint64_t{1});
-    EXPECT_TRUE(journal.append("COLLISION", fields, 200, 2, Durability::essential));
+    EXPECT_TRUE(journal.append("COLLISION", fields, 200, 2, true));
     fields = Fields().set("result", "reached").set("reason", "goal_reached");
-    EXPECT_TRUE(journal.append("TRIAL_END", fields, 300, 3, Durability::essential));
+    EXPECT_TRUE(journal.append("TRIAL_END", fields, 300, 3, true));
     return bytes();
   }
   void put(const std::string& text) const {
@@ -54,8 +54,8 @@ TEST_F(AJournal, reads_back_what_was_appended) {
   {
     errno = EIO;  // of a call before
     Journal journal = open();
-    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
-    ASSERT_TRUE(journal.append("PROGRESS", Fields().set("x", 1.5), 3, 4, Durability::relaxed));
+    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, true));
+    ASSERT_TRUE(journal.append("PROGRESS", Fields().set("x", 1.5), 3, 4, false));
     rows = journal.rows();
     EXPECT_EQ(fs::file_size(path_ / "journal.reserve"), std::uintmax_t{1} << 20);
   }
@@ -118,7 +118,7 @@ TEST_F(AJournal, L3_survives_interrupted_and_short_writes) {
   };
   {
     Journal journal = open();
-    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+    ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, true));
   }
   EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
 }
@@ -163,14 +163,14 @@ TEST_F(AJournal, L3_is_broken_for_good_after_a_failed_sync) {
     return -1;
   };
   Journal journal = open();
-  ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+  ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, true));
   fail = true;
   const int before = asked + 1;
-  EXPECT_TRUE(journal.append("PROGRESS", Fields(), 2, 3, Durability::relaxed));
-  EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
+  EXPECT_TRUE(journal.append("PROGRESS", Fields(), 2, 3, false));
+  EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, true));
   EXPECT_EQ(journal.problem(), navvi_files::failure("write the journal", EIO));
   fail = false;
-  EXPECT_FALSE(journal.append("COLLISION", Fields(), 5, 6, Durability::essential));
+  EXPECT_FALSE(journal.append("COLLISION", Fields(), 5, 6, true));
   EXPECT_EQ(asked, before) << "a failed sync is never asked again";
   EXPECT_TRUE(journal.broken());
   EXPECT_EQ(journal.rows().size(), 2u);
@@ -188,19 +188,19 @@ TEST_F(AJournal, L1_on_a_full_disk_gives_up_its_reserve_and_keeps_the_row) {
   };
   Journal journal = open();
   full = true;
-  EXPECT_TRUE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
+  EXPECT_TRUE(journal.append("COLLISION", Fields(), 3, 4, true));
   EXPECT_TRUE(journal.full());
   EXPECT_FALSE(journal.broken());
   EXPECT_EQ(read_journal(bytes()).rows.size(), 1u);
   has_room = false;
-  EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, Durability::essential));
+  EXPECT_FALSE(journal.append("COLLISION", Fields(), 3, 4, true));
   error = EIO;
   full = false;
   fs::remove(this->journal());
   {
     Journal other = open();
     full = true;
-    EXPECT_FALSE(other.append("COLLISION", Fields(), 3, 4, Durability::essential));
+    EXPECT_FALSE(other.append("COLLISION", Fields(), 3, 4, true));
     EXPECT_FALSE(other.full()) << "the reserve is for a full disk";
   }
   fs::remove(this->journal());
@@ -221,7 +221,7 @@ TEST_F(AJournal, that_may_grow_no_more_says_so_at_the_next_row) {
     const rlimit small{4096, 4096};
     ::setrlimit(RLIMIT_FSIZE, &small);
     for (int i = 0; i < 1000; ++i) {
-      if (journal.append("PROGRESS", Fields().set("x", 1.0), i, i, Durability::relaxed)) continue;
+      if (journal.append("PROGRESS", Fields().set("x", 1.0), i, i, false)) continue;
       ::_exit(journal.broken() ? 0 : 1);
     }
     ::_exit(2);
@@ -244,9 +244,9 @@ TEST_F(Recovering, leaves_a_whole_trial_as_it_is) {
 
 TEST_F(Recovering, leaves_a_running_trial_alone) {
   Journal journal = open();
-  ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, Durability::essential));
+  ASSERT_TRUE(journal.append("TRIAL_START", Fields(), 1, 2, true));
   EXPECT_TRUE(recover(path_).in_use);
-  EXPECT_TRUE(journal.append("TRIAL_END", Fields(), 3, 4, Durability::essential));
+  EXPECT_TRUE(journal.append("TRIAL_END", Fields(), 3, 4, true));
 }
 
 TEST_F(Recovering, closes_a_trial_cut_anywhere_and_changes_nothing_the_second_time) {

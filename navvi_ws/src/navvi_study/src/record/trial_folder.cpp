@@ -65,8 +65,7 @@ namespace {
 
 /// Whether the summary is whole, and has the result of the trial and the state of its bag.
 bool is_summed_up(const fs::path& folder, const Trial& trial) {
-  const auto text = navvi_files::read_file(folder / "summary.csv");
-  const auto summary = parse_summary(text.value_or(""));
+  const auto summary = parse_summary(navvi_files::read_file(folder / "summary.csv").value_or(""));
   const auto has = [&](const std::string& type, const std::string& field, const char* column) {
     const Row* row = trial.last(type);
     const std::string cell = cell_of(*summary, column);

@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  const auto text = navvi_files::read_file(folder / "summary.csv");
-  const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
+  const auto summary =
+      study::record::parse_summary(navvi_files::read_file(folder / "summary.csv").value_or(""));
   if (!summary || !std::filesystem::exists(folder / "trial.bag")) {
     std::fprintf(stderr, "%s lacks a %s.\n", folder.c_str(),
                  summary ? "closed trial.bag" : "summary.csv in order");

@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   const fs::path folder = argv[2];
-  const auto text = navvi_files::read_file(folder / "summary.csv");
-  const auto summary = text ? study::record::parse_summary(*text) : std::nullopt;
+  const auto summary =
+      study::record::parse_summary(navvi_files::read_file(folder / "summary.csv").value_or(""));
   if (!summary) {
     std::fprintf(stderr, "There is no summary.csv in order in %s.\n", folder.c_str());
     return 2;

@@ -19,11 +19,13 @@ class Readiness {
 
   void saw_odometry(double time) { odometry_ = time; }
   void saw(const Guidance& guidance, double time);
-  void saw(const LinkState&) { linked_ = true; }
+  void saw(const LinkState&, double) { linked_ = true; }
   void saw(const DeviceReport& device, double time) {
     devices_[device.device] = device;
     feedback_ = time;
   }
+  template <typename Other>
+  void saw(const Other&, double) {}
 
   /// What is not there, in words; empty when a trial can begin.
   [[nodiscard]] std::vector<std::string> missing(double time, bool clock_runs) const;

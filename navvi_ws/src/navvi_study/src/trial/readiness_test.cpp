@@ -66,7 +66,7 @@ TEST(Readiness, waits_for_the_connection_where_the_robot_is_on_another_machine) 
   ready.saw({0, "audio", DeviceState::works}, 0.0);
   EXPECT_EQ(ready.missing(0.0, true),
             Words{"the state of the connection to the robot (/navvi/link)"});
-  ready.saw(LinkState{});
+  ready.saw(LinkState{}, 0.0);
   EXPECT_EQ(ready.missing(0.0, true), Words{});
 }
 

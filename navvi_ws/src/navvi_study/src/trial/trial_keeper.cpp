@@ -20,14 +20,6 @@ constexpr double kDrain = 0.3;                   // s, for reports on their way 
 constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
 constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
 
-std::string list_of(const std::vector<std::string>& words) {
-  return boost::algorithm::join(words, ", ");
-}
-
-std::string place_of(const Eigen::Vector2d& point) {
-  return record::fixed(point.x(), 2) + ", " + record::fixed(point.y(), 2);
-}
-
 }  // namespace
 
 std::optional<std::size_t> TrialKeeper::Job::at(const Eigen::Vector2d& goal) const {
@@ -79,7 +71,6 @@ void TrialKeeper::take(const Correction& correction, const Moment& now) {
 
 void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
-  readiness_.saw(guidance, now.wall());
   const bool refused = guidance.state == Guidance::State::goal_refused;
   if (phase_ != Phase::running && refused && goals_.next && job_.places.empty() &&
       (guidance.goal - goals_.next->place).norm() < kSame)
@@ -92,18 +83,6 @@ void TrialKeeper::change_goal(const ChosenGoal& chosen) {
   goals_.now = chosen;
   goals_.tries = {};
   record(monitor_.change_goal(chosen.place, std::max(now_.ros_ns, monitor_.latest())));
-}
-
-void TrialKeeper::take(const DeviceReport& device, const Moment& now) {
-  now_ = now;
-  readiness_.saw(device, now.wall());
-  observe(device);
-}
-
-void TrialKeeper::take(const LinkState& link, const Moment& now) {
-  now_ = now;
-  readiness_.saw(link);
-  observe(link);
 }
 
 void TrialKeeper::take(const Scenario& scenario, const Moment& now) {
@@ -120,8 +99,6 @@ void TrialKeeper::take(const ClockOffset& clock, const Moment& now) {
               .set("source", clock.source)
               .set("offset_ns", std::to_string(clock.offset_ns)),
           monitor_.latest(), false});
-  } else if (config_.locked && (offered_.scenario || !job_.places.empty())) {
-    tell(Tone::warning, "A goal was set from outside, with no effect.");
 }
 
 void TrialKeeper::take(const TrialRequest& request, const Moment& now) {
@@ -141,6 +118,8 @@ void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now, std:
     if (monitor_.goal_taken()) goals_.before = goals_.now;
     change_goal(chosen);
     goals_.tries.sent_elsewhere(now.wall());
+  } else if (config_.locked && (offered_.scenario || !job_.places.empty())) {
+    tell(Tone::warning, "A goal was set from outside, with no effect.");
   } else if (!offered_.scenario || offered_.played || config_.press_to_start) {
     // Also while a record is being closed: the next trial is to it.
     offered_.played = true;
@@ -149,8 +128,8 @@ void TrialKeeper::take_goal(const Eigen::Vector2d& goal, const Moment& now, std:
   }
 }
 
-std::vector<std::string> TrialKeeper::missing() const {
-  return readiness_.missing(now_.wall(), now_.ros_ns != 0);
+std::string TrialKeeper::missing() const {
+  return boost::algorithm::join(readiness_.missing(now_.wall(), now_.ros_ns != 0), ", ");
 }
 
 bool TrialKeeper::may_say(double pause) {
@@ -205,16 +184,16 @@ void TrialKeeper::show_state() {
 }
 
 void TrialKeeper::wait() {
-  const auto words = missing();
+  const std::string words = missing();
   if (words.empty()) return arm();
   // Between trials of a series a pause is allowed, but there must be a robot at all.
   const bool refuses = config_.once || !readiness_.saw_any_odometry();
   if (refuses && config_.patience > 0.0 && now_.wall() - phase_since_ > config_.patience) {
     tell(Tone::fatal, "No trial: after " + std::to_string(std::lround(config_.patience)) +
-                          " s what is missing is still " + list_of(words) + ".");
+                          " s what is missing is still " + words + ".");
     return leave(3);
   }
-  if (may_say(kSayAgain)) tell(Tone::warning, "No trial yet: waiting for " + list_of(words) + ".");
+  if (may_say(kSayAgain)) tell(Tone::warning, "No trial yet: waiting for " + words + ".");
 }
 
 void TrialKeeper::arm() {
@@ -256,9 +235,8 @@ void TrialKeeper::try_to_start() {
     if (may_say(6 * kSayAgain)) tell(Tone::info, "Ready for a trial: waiting for a goal.");
     return;
   }
-  if (const auto words = missing(); !words.empty()) {
-    if (may_say(kSayAgain))
-      tell(Tone::warning, "No trial yet: waiting for " + list_of(words) + ".");
+  if (const std::string words = missing(); !words.empty()) {
+    if (may_say(kSayAgain)) tell(Tone::warning, "No trial yet: waiting for " + words + ".");
     return;
   }
   if (!config_.press_to_start || pressed_) return start(*goals_.next);
@@ -293,8 +271,8 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
   where.set("goal_x", goal.x(), 6).set("goal_y", goal.y(), 6);
   if (!record({"GOAL_SET", where, beginning.stamp})) return;
   show_state();
-  tell(Tone::info,
-       "Trial " + kept_.folder.filename().string() + " has begun: goal at " + place_of(goal) + ".");
+  tell(Tone::info, "Trial " + kept_.folder.filename().string() + " has begun: goal at " +
+                       record::fixed(goal.x(), 2) + ", " + record::fixed(goal.y(), 2) + ".");
   ask_for_goal();
 }
 
@@ -440,10 +418,8 @@ bool TrialKeeper::record(const Event& event) {
   fields.set("utc", record::calendar(began_.utc_ns + now_.mono_ns - began_.mono_ns));
   // Once a second also as it stands, so that all clocks can be brought together.
   if (event.type == "PROGRESS") fields.set("calendar", record::calendar(now_.utc_ns));
-  const auto row = kept_.journal->append(
-      event.type, fields, event.sim_ns, now_.mono_ns,
-      event.essential ? record::Durability::essential : record::Durability::relaxed);
-  if (row) {
+  if (const auto row =
+          kept_.journal->append(event.type, fields, event.sim_ns, now_.mono_ns, event.essential)) {
     outlets_.publish(*row);
     return true;
   }

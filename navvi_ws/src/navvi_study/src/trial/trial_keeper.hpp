@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -73,8 +72,6 @@ class TrialKeeper {
   void take(const Odometry& odometry, const Moment& now);
   void take(const Correction& correction, const Moment& now);
   void take(const Guidance& guidance, const Moment& now);
-  void take(const DeviceReport& device, const Moment& now);
-  void take(const LinkState& link, const Moment& now);
   void take(const Scenario& scenario, const Moment& now);
   /// Recorded while a trial runs, so that its rows can be found on the other clock.
   void take(const ClockOffset& clock, const Moment& now);
@@ -177,7 +174,7 @@ class TrialKeeper {
   /// Journals, then publishes. False when the journal is broken.
   bool record(const Event& event);
   void write_summary();
-  [[nodiscard]] std::vector<std::string> missing() const;
+  [[nodiscard]] std::string missing() const;  ///< with commas between; empty: nothing
   /// True if `pause` s have passed since the last sentence on the screen; restarts the pause.
   [[nodiscard]] bool may_say(double pause);
   void tell(Tone tone, const std::string& sentence) const { outlets_.tell(tone, sentence); }
@@ -215,6 +212,7 @@ class TrialKeeper {
 
 template <typename Report>
 void TrialKeeper::observe(const Report& report) {
+  readiness_.saw(report, now_.wall());
   tracker_.observe(report);
   for (const auto& event : monitor_.observe(report)) {
     if (active()) record(event);

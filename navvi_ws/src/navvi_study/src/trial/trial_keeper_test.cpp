@@ -219,7 +219,6 @@ TEST_F(Trials, of_a_study_end_when_anybody_else_sets_a_goal) {
   EXPECT_TRUE(holds("summary.csv", ",aborted,goal_changed,"));
 }
 
-TEST_F(Trials, P3_of_a_study_record_each_parameter_that_is_set_from_outside) {
 TEST_F(Trials, of_a_study_that_have_not_begun_take_nobodys_goal) {
   for (const bool job : {false, true}) {
     config_.job = job ? folder_.write("job.yaml", "- {name: table, x: 3, y: 0}\n") : "";
@@ -238,6 +237,7 @@ TEST_F(Trials, of_a_study_that_have_not_begun_take_nobodys_goal) {
   }
 }
 
+TEST_F(Trials, P3_of_a_study_record_each_parameter_that_is_set_from_outside) {
   config_.locked = true;
   offer();
   live(1.0);
@@ -430,7 +430,6 @@ TEST_F(Trials, of_a_job_lead_to_the_place_that_was_chosen_and_then_to_those_that
   EXPECT_TRUE(keeper_->done());
 }
 
-TEST_F(Trials, of_a_job_end_without_a_place_that_is_refused_or_takes_too_long_and_name_it) {
 TEST_F(Trials, of_a_job_that_comes_back_to_a_spot_lead_there_again_and_end) {
   config_.job = folder_.write("job.yaml",
                               "- {name: dock, x: 3, y: 0, do: pick}\n- {name: table, x: 6, y: 0}\n"
@@ -452,6 +451,7 @@ TEST_F(Trials, of_a_job_that_comes_back_to_a_spot_lead_there_again_and_end) {
   EXPECT_TRUE(said("The job is done: 3 places."));
 }
 
+TEST_F(Trials, of_a_job_end_without_a_place_that_is_refused_or_takes_too_long_and_name_it) {
   config_.job = folder_.write("job.yaml",
                               "- {name: attic, x: 500, y: 0}\n- {name: here, x: 2, y: 0}\n"
                               "- {name: table, x: 3, y: 0}\n- {name: dock, x: 6, y: 0}\n");
@@ -527,28 +527,6 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   EXPECT_TRUE(happened("TRIAL_START"));
 }
 
-TEST_F(Trials, S1_that_a_crash_has_stopped_do_not_say_that_a_hand_did) {
-  run();
-  keeper_->stop(now(), "simulator_lost");
-  wait(2.0);
-  EXPECT_TRUE(holds("summary.csv", ",aborted,simulator_lost,"));
-}
-
-TEST_F(Trials, S1_that_are_stopped_while_a_part_is_silent_name_that_part) {
-  run();
-  feedback_ = false;
-  live(1.5, State::following, kScenario.goal);
-  keeper_->stop(now());
-  wait(2.0);
-  EXPECT_TRUE(holds("summary.csv", ",aborted,feedback_lost,"));
-}
-
-TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_failed) {
-  feedback_ = false;
-  offer();
-  report("audio");
-  live(0.8, State::following, kScenario.goal);
-  ASSERT_TRUE(happened("TRIAL_START"));
 /// As on a robot, where no world asks for a trial.
 TEST_F(Trials, by_a_goal_that_a_person_chooses_begin_once_bag_and_devices_are_there) {
   config_.record = "here";
@@ -564,28 +542,6 @@ TEST_F(Trials, by_a_goal_that_a_person_chooses_begin_once_bag_and_devices_are_th
   live(1.0);
   keeper_->take_goal({4.0, 0.0}, now());
   live(1.0);
-TEST_F(Trials, S1_that_a_crash_has_stopped_do_not_say_that_a_hand_did) {
-  run();
-  keeper_->stop(now(), "simulator_lost");
-  wait(2.0);
-  EXPECT_TRUE(holds("summary.csv", ",aborted,simulator_lost,"));
-}
-
-TEST_F(Trials, S1_that_are_stopped_while_a_part_is_silent_name_that_part) {
-  run();
-  feedback_ = false;
-  live(1.5, State::following, kScenario.goal);
-  keeper_->stop(now());
-  wait(2.0);
-  EXPECT_TRUE(holds("summary.csv", ",aborted,feedback_lost,"));
-}
-
-TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_failed) {
-  feedback_ = false;
-  offer();
-  report("audio");
-  live(0.8, State::following, kScenario.goal);
-  ASSERT_TRUE(happened("TRIAL_START"));
   EXPECT_FALSE(happened("TRIAL_START")) << "without speech";
   report("speech");
   live(1.0);
@@ -608,6 +564,28 @@ TEST_F(Trials, do_not_grow_while_they_wait) {
   EXPECT_LT(::mallinfo2().uordblks, before + 100'000) << "bytes, of 20 000 reports";
 }
 
+TEST_F(Trials, S1_that_a_crash_has_stopped_do_not_say_that_a_hand_did) {
+  run();
+  keeper_->stop(now(), "simulator_lost");
+  wait(2.0);
+  EXPECT_TRUE(holds("summary.csv", ",aborted,simulator_lost,"));
+}
+
+TEST_F(Trials, S1_that_are_stopped_while_a_part_is_silent_name_that_part) {
+  run();
+  feedback_ = false;
+  live(1.5, State::following, kScenario.goal);
+  keeper_->stop(now());
+  wait(2.0);
+  EXPECT_TRUE(holds("summary.csv", ",aborted,feedback_lost,"));
+}
+
+TEST_F(Trials, end_when_the_feedback_falls_silent_and_not_as_if_the_person_had_failed) {
+  feedback_ = false;
+  offer();
+  report("audio");
+  live(0.8, State::following, kScenario.goal);
+  ASSERT_TRUE(happened("TRIAL_START"));
   EXPECT_FALSE(happened("DEVICE_LOST"));
   live(0.5, State::following, kScenario.goal);
   EXPECT_TRUE(happened("DEVICE_LOST")) << "after a second";

@@ -299,7 +299,6 @@ std::vector<Event> TrialMonitor::observe(const Guidance& guidance) {
     if (first) guided_.plans = guidance.plans;
     // A path that ends short of the goal has no length to compare a drive with.
     if (first && !guidance.ends_short) {
-      tally_.first_path_length = guidance.goal_distance;
       record::Fields fields = place();
       fields.set("first_path_length", guidance.goal_distance);
       fields.set("shortest_path", guidance.shortest_length);

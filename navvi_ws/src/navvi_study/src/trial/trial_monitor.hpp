@@ -88,9 +88,8 @@ struct TrialStart {
 
 /// Running figures of a trial.
 struct Tally {
-  double path_length = 0.0;                 ///< m, driven
-  double turned = 0.0;                      ///< rad, >= 0: farthest from how the robot stood first
-  std::optional<double> first_path_length;  ///< m, of the first path
+  double path_length = 0.0;  ///< m, driven
+  double turned = 0.0;       ///< rad, >= 0: farthest from how the robot stood first
   std::uint64_t shelf_collisions = 0;
   std::uint64_t obstacle_collisions = 0;
   std::uint64_t replans = 0;
@@ -156,8 +155,8 @@ class TrialMonitor {
   /// The simulator began anew in mid trial.
   [[nodiscard]] bool world_restarted() const { return world_restarted_; }
   /// s, of the connection, as last told, also before a trial
-  /// The wheels were stopped as ROS time had jumped, if for a moment only.
   [[nodiscard]] double round_trip() const { return round_trip_; }
+  /// The wheels were stopped as ROS time had jumped, if for a moment only.
   [[nodiscard]] bool clock_jumped() const { return clock_jumped_; }
   /// ns, the latest stamp that was seen at all
   [[nodiscard]] std::int64_t latest() const { return latest_; }
