@@ -88,7 +88,7 @@ def test_a_journal_that_lost_rows_is_named_and_nothing_goes_on(work, monkeypatch
     if not with_last:
         kept.journal.last.unlink()
     named = "done sub-01 s1-end" if with_last else {
-        "by two rows": "lacks journal.last", "within a row": str(trial_of_first(kept)), "to nothing": str(kept.frozen_file)}[how]
+        "by two rows": "lacks journal.last", "within a row": str(trial_of_first(kept)), "to nothing": str(kept.folder / "frozen.json")}[how]
     for action in (actions.next_, actions.freeze, actions.report, actions.table, actions.export, actions.run, actions.exclude, actions.withdraw, actions.unblind):
         with pytest.raises(StudyError) as problem:
             action(args)
@@ -239,7 +239,7 @@ def test_D4_a_row_that_may_not_last_is_not_read(tmp_path, monkeypatch):
 
 def test_a_damaged_file_of_the_frozen_plan_is_a_sentence(work):
     for content in (b"{", b"\xff", b"[]", b"{}"):
-        work.study.frozen_file.write_bytes(content)
+        (work.study.folder / "frozen.json").write_bytes(content)
         with pytest.raises(StudyError, match="restore it from a copy"):
             work.study.require_frozen()
 

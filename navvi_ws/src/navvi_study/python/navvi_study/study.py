@@ -82,10 +82,6 @@ class Study:
 
     # What was planned when the study began.
 
-    @property
-    def frozen_file(self):
-        return self.folder / "frozen.json"
-
     def frozen(self):
         """The values that were frozen last; None before."""
         freezes = self.progress().freezes
