@@ -1,9 +1,9 @@
 """Run many simulated trials, each a row of a table.
 
 Each world, seed, person and condition makes a trial. A batch that was killed
-goes on when it is called again with the same words. At its end DIR holds
-trials.csv, a row a trial, with the same bytes for every --jobs and --shard, and
-trials.json, what each column means. doc/batch.md tells more.
+goes on when it is called again with the same words, version and files. At its
+end DIR holds trials.csv, a row a trial, with the same bytes for every --jobs
+and --shard, and trials.json, what each column means. doc/batch.md tells more.
 
 A person is able, typical, struggling, deafblind, noise or drawn: in each world
 another one, or those with your seeds, such as drawn:1-20. A condition is
