@@ -13,7 +13,7 @@ import pytest
 from conftest import free_port
 from sessions import ROOT
 from navvi_cli import arguments, network, parser, session, trials, worlds
-from navvi_cli.commands import check, replay, robot, run, show
+from navvi_cli.commands import check, replay, robot, run, show, tutorial
 from navvi_cli.main import command_names, parser_of
 from navvi_cli.say import Failure, fail
 
@@ -408,6 +408,14 @@ def test_the_last_trial_of_the_session_is_its_end_also_where_another_session_wri
     assert "trial-2" in capsys.readouterr().out
     for why in (".", "; the log LOG says why. There is no map."):
         assert refusal(lambda: run.report(out, [], why), 1) == f"the session ended without a trial{why}"
+
+
+def test_the_table_of_a_tutorial_is_kept_with_its_own_trial(tmp_path):
+    for name in "trial-1", "trial-2":
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "summary.csv").touch()
+    tutorial.keep("step,tries,seconds,passed,practice\nlet_go,1,3.6,yes,no\n", tmp_path, ["trial-1"])
+    assert [path.parent.name for path in tmp_path.glob("*/tutorial.csv")] == ["trial-1"]
 
 
 def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):
