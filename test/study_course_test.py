@@ -190,7 +190,8 @@ def test_a_job_that_a_session_refuses_is_neither_checked_nor_frozen_nor_rehearse
     monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
     monkeypatch.setitem(actions.TOOLS, "tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)
     (tmp_path / "round.yaml").write_text("".join(f"- {{name: {name}, x: {x}, y: 0}}\n" for x, name in enumerate(names)))
-    args = words(study.Study(small(tmp_path, ("a: {world: easy", "a: {jobs: round.yaml, world: easy"))), reason=None, no_worlds=False, pictures=False, only=None)
+    plan = small(tmp_path, ("a: {world: easy", "a: {jobs: round.yaml, world: easy"))
+    args = words(study.Study(plan), reason=None, no_worlds=False, pictures=False, only=None)
     for action in actions.check, actions.freeze, actions.rehearse:
         with pytest.raises(StudyError, match=f"round.yaml.*{says}"):
             action(args)
@@ -276,7 +277,8 @@ def test_a_trial_that_broke_off_does_not_count_though_a_crash_came_right_after_i
     begun = work()
     assert rest(begun)[0] == "s1-c1-trial-1" and begun.runner.driven[0] == ("easy", 11)
     rows = table.trials(work.study, work.study.progress())
-    assert [(row["counts"], row["excluded"], row["excluded_by"]) for row in rows[:2]] == [("no", "the trial broke off", "rule"), ("yes", "n/a", "n/a")]
+    told = [(row["counts"], row["excluded"], row["excluded_by"]) for row in rows[:2]]
+    assert told == [("no", "the trial broke off", "rule"), ("yes", "n/a", "n/a")]
 
 
 def test_a_journal_of_before_whose_rules_wrote_rows_of_their_own_is_read(work):

@@ -31,7 +31,7 @@ def write(study, progress, read_way):
         first = {}
         for name in names:
             if (other := first.setdefault(label(name), name)) != name:
-                raise StudyError(f"{plan.file}: {other} and {name} would both be {label(name)} in BIDS, which allows letters and digits alone; nothing is written.")
+                raise StudyError(f"{plan.file}: {other} and {name} would both be {label(name)} in BIDS, which allows letters and digits.")
     shutil.rmtree(folder, ignore_errors=True)
     _json(folder / "dataset_description.json", {"Name": plan.title, "BIDSVersion": VERSION, "DatasetType": "raw",
                                                 "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})

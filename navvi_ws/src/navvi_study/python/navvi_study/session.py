@@ -60,15 +60,16 @@ class Session:
         verdict = self._verdict(name, attempt, rows) if rows else {}
         self.study.journal.append(
             "end", participant=name, step=attempt.step, attempt=attempt.number, trial=trial, result=result_of(rows),
-            collisions=None if None in collisions or not rows else sum(collisions), **({"legs": sums} if places else {"sums": sums.get(trial, {})}), **verdict)
+            collisions=None if None in collisions or not rows else sum(collisions), **verdict,
+            **({"legs": sums} if places else {"sums": sums.get(trial, {})}))
         if not rows:
             self.say("navvi: no trial began; the same comes again with the next \"study next\".")
             return False
         for path, row in legs.items():
             self.say(f"navvi: {name}: {row['result']}, {row['elapsed_s']} s; the record is in {path}.")
         if verdict.get("drop_out"):
-            self.say(f"navvi: {name}: a {verdict['excluded'].replace(':', ',')}; nothing takes its place. If that had nothing to do with the person or the "
-                     f"condition: ./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does.")
+            self.say(f"navvi: {name}: a {verdict['excluded'].replace(':', ',')}; nothing takes its place. If that had nothing to do with the person "
+                     f"or the condition: ./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does.")
         elif verdict:
             self.say(f"navvi: {name}: the trial does not count: {verdict['excluded']}.")
         return True

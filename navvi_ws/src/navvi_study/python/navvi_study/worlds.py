@@ -33,7 +33,7 @@ def drive(plan, trials_bench, jobs=2):
 
 
 def require_files(plan, tool):
-    """Raises StudyError for zones and jobs that a session refuses, and for a world's file in which nothing stands; worlds with a name are drawn full."""
+    """Raises StudyError for zones and jobs that a session refuses, and for a world's file in which nothing stands; named ones are full."""
     def answer(*command):
         result = subprocess.run([*map(str, command)], capture_output=True, text=True, errors="replace", check=False)
         if result.returncode != 0:
