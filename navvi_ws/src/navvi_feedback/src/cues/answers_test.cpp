@@ -79,6 +79,13 @@ TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {
   EXPECT_EQ(ask(Button::around), Texts{"shelf 1 meter left, forklift 2 meters behind"});
 }
 
+TEST_F(AnswersTest, tells_what_is_around_also_of_a_thing_that_is_touched) {
+  for (const double gap : {0.0, -0.004, -0.3}) {
+    now_.nearby = {{ThingClass::shelf, 1, gap, {0.4, 0.0}, false}};
+    EXPECT_EQ(ask(Button::around, 1.0).at(0), "shelf 0.5 meters ahead") << gap;
+  }
+}
+
 TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
   now_.nearby = {{ThingClass::box, 1, 0.4, {0.3, 0.8}, false},
                  {ThingClass::shelf, 2, 1.2, {1.6, 0.1}, false}};

@@ -46,8 +46,8 @@ Utterance around(const std::vector<NearThing>& nearby) {
               nearest.end());
   std::vector<Utterance> told;
   for (const NearThing* thing : nearest) {
-    told.push_back(
-        {CueKind::around, {{}, thing->gap, thing->thing_class, side_of(thing->nearest)}});
+    told.push_back({CueKind::around,
+                    {{}, std::max(0.0, thing->gap), thing->thing_class, side_of(thing->nearest)}});
     told.back().from = thing->nearest;
   }
   Utterance first = told.front();
