@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "cues/link_cues.hpp"
 #include "cues/near_words.hpp"
 #include "cues/surroundings.hpp"
 #include "cues/way_words.hpp"
@@ -53,6 +54,7 @@ std::optional<Utterance> about(Button question, const Tick& tick, Rounding round
 /// The way, or why there is none. \return nullopt: it may be on its way
 std::optional<Utterance> about_the_way(const Tick& tick, RouteCues& route, const Halt& halt,
                                        const StateCues& state, const HeldStick& held) {
+  if (tick.links.simulator == Link::lost) return Utterance{lost_robot(tick.now)};
   if (held.needed()) return Utterance{*held.needed()};
   if (tick.follows && halt.halted()) return halt.words();
   if (auto way = tick.follows ? route.ask(*tick.now.guidance, tick.time) : std::nullopt) {

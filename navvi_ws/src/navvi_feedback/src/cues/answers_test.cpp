@@ -86,6 +86,29 @@ TEST_F(AnswersTest, tells_what_is_around_also_of_a_thing_that_is_touched) {
   }
 }
 
+TEST_F(AnswersTest, T3_tell_that_the_robot_is_silent_and_not_that_there_is_no_goal) {
+  under_way();
+  now_.links.simulator = now_.links.guidance = Link::lost;
+  pass(8.0);
+  for (const Button question : {Button::repeat, Button::goal, Button::turn})
+    EXPECT_EQ(ask(question, 4.0), Texts{"the robot does not report its motion"});
+  now_.cut_off = true;
+  EXPECT_EQ(ask(Button::repeat, 4.0), Texts{"connection lost"});
+}
+
+TEST_F(AnswersTest, T3_tell_that_the_robot_is_silent_and_not_what_a_job_waited_for) {
+  now_.guidance->state = Guidance::State::no_goal;
+  now_.trial = TrialState::State::ready;
+  now_.task = TrialState::Task::pick;
+  now_.reached = "dock";
+  EXPECT_EQ(pass(3.0), Texts{"dock, pick, then press start"});
+  now_.links.simulator = Link::lost;
+  pass(3.0);
+  now_.trial = TrialState::State::preparing;
+  now_.reached.clear();
+  EXPECT_EQ(ask(Button::repeat), Texts{"the robot does not report its motion"});
+}
+
 TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
   now_.nearby = {{ThingClass::box, 1, 0.4, {0.3, 0.8}, false},
                  {ThingClass::shelf, 2, 1.2, {1.6, 0.1}, false}};
