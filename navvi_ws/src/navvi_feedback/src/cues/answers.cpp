@@ -36,6 +36,7 @@ std::optional<Utterance> about(Button question, const Tick& tick, Rounding round
   const Observation& now = tick.now;
   const bool to_goal = tick.follows && now.guidance->state == Guidance::State::following;
   if (question == Button::around) {
+    if (tick.links.proximity != Link::alive) return Utterance{CueKind::proximity_lost};
     const bool far = now.connection.foresight > 0.0 && !stands(now);
     const auto stops = far ? stops_before(now.nearby, now.stops_in) : std::nullopt;
     return stops ? stops : around(now.nearby);

@@ -109,6 +109,16 @@ TEST_F(AnswersTest, T3_tell_that_the_robot_is_silent_and_not_what_a_job_waited_f
   EXPECT_EQ(ask(Button::repeat), Texts{"the robot does not report its motion"});
 }
 
+TEST_F(AnswersTest, do_not_say_that_nothing_is_near_where_that_is_not_known) {
+  under_way();
+  now_.links.proximity = Link::lost;
+  pass(3.0);
+  EXPECT_EQ(ask(Button::around), Texts{"obstacles are not sensed"});
+  now_.links.proximity = Link::alive;
+  pass(3.0);
+  EXPECT_EQ(ask(Button::around), Texts{"nothing is near"});
+}
+
 TEST_F(AnswersTest, tells_over_a_delay_before_what_the_robot_stops) {
   now_.nearby = {{ThingClass::box, 1, 0.4, {0.3, 0.8}, false},
                  {ThingClass::shelf, 2, 1.2, {1.6, 0.1}, false}};
