@@ -49,7 +49,7 @@ CuePolicy::CuePolicy(const CuePolicyConfig& config, Phrases phrases)
 std::vector<Cue> CuePolicy::update(const Observation& now, const Asked& asked, double time) {
   const Tick tick = look(now, asked, time);
   Utterances told = links_.update(now);
-  add(told, notices_.update(tick));
+  add(told, notices_.update(tick, phrasing_));
   add(told, collisions_.update(now.contacts, time));
   add(told, release(tick, told));
   add(told, stuck_.update(now, tick.follows, time));

@@ -2,30 +2,35 @@
 
 #include <optional>
 #include <set>
+#include <utility>
 
-#include "cues/phrases.hpp"
+#include "cues/phrasing.hpp"
 #include "cues/tick.hpp"
 
 namespace navvi_feedback::cues {
 
-/// Tells each notice when it comes, and knows since when the trial is over.
+/// Tells each notice when it comes, or, while it was told too short a time ago, a little later if
+/// it lasts; and knows since when the trial is over.
 class NoticeCues {
  public:
   /// \param last_words  s, without directions after the end of a trial
   explicit NoticeCues(double last_words) : last_words_(last_words) {}
 
-  [[nodiscard]] Utterances update(const Tick& tick) {
+  [[nodiscard]] Utterances update(const Tick& tick, const Phrasing& phrasing) {
     Utterances told;
     std::set<Content> notices(tick.now.notices.begin(), tick.now.notices.end());
     if (tick.asked.menu_closed) notices.insert({CueKind::menu_closed, About::menu_closed});
+    const std::set<Content> noticed = std::exchange(noticed_, {});
     for (const Content& notice : notices) {
-      if (noticed_.count(notice) > 0) continue;
+      const bool known = noticed.count(notice) > 0;
+      if (!known && family_of(notice.kind) == Family::trial_end) trial_over_ = tick.time;
+      if (!known && phrasing.too_soon(notice, tick.time)) continue;
+      noticed_.insert(notice);
+      if (known) continue;
       told.push_back({notice});
       told.back().fillings.place_name = tick.now.zone;
       told.back().fillings.person = tick.now.devices.person;
-      if (family_of(notice.kind) == Family::trial_end) trial_over_ = tick.time;
     }
-    noticed_ = notices;
     return told;
   }
 
@@ -37,7 +42,7 @@ class NoticeCues {
 
  private:
   double last_words_;
-  std::set<Content> noticed_;         ///< as of the last update
+  std::set<Content> noticed_;         ///< told, and there at the last update
   std::optional<double> trial_over_;  ///< s
 };
 

@@ -19,6 +19,31 @@ TEST_F(NoticeCuesTest, says_a_notice_once) {
   EXPECT_EQ(pass(1.0), Texts{"this controller cannot rumble"}) << "another controller";
 }
 
+TEST_F(NoticeCuesTest, says_a_little_later_what_returns_too_soon_if_it_lasts) {
+  now_.guidance.reset();
+  now_.zone = "press shop";
+  for (const Content& notice : std::vector<Content>{CueKind::emergency_stop,
+                                                    CueKind::pad_too_late,
+                                                    CueKind::record_lost,
+                                                    {CueKind::notice, About::two_drivers},
+                                                    {CueKind::notice, About::zone_slow}}) {
+    const auto told = [&](bool there, double seconds) {
+      now_.notices.clear();
+      if (there) now_.notices = {notice};
+      return pass(seconds).size();
+    };
+    EXPECT_EQ(told(true, 0.5), 1U) << to_string(notice);
+    EXPECT_EQ(told(false, 0.5), 0U) << to_string(notice);
+    EXPECT_EQ(told(true, 5.0), 1U) << to_string(notice) << " is there again";
+    EXPECT_EQ(told(true, 30.0), 0U) << to_string(notice) << ", once";
+    told(false, 1.0);
+    told(true, 0.5);
+    told(false, 0.5);
+    told(true, 0.5);
+    EXPECT_EQ(told(false, 30.0), 0U) << to_string(notice) << " is over";
+  }
+}
+
 TEST_F(NoticeCuesTest, names_a_zone_and_the_person_whose_settings_are_used) {
   under_way();
   now_.zone = "press shop";
