@@ -171,18 +171,18 @@ TEST_F(CuePolicyTest, orders_nothing_but_the_remedy_while_the_stick_is_held_in_v
 
 TEST_F(CuePolicyTest, may_say_again_at_once_what_was_dropped) {
   under_way();
-  const auto lose_and_find = [&] {
-    now_.links.simulator = Link::alive;
+  const auto stop_once_more = [&] {
+    now_.gate = DriveState::State::running;
     pass(0.1);
-    now_.links.simulator = Link::lost;
+    now_.gate = DriveState::State::stopped;
     return pass(0.4);
   };
-  EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
-  const Cue lost = last_;
-  EXPECT_EQ(lose_and_find(), Texts{});
-  last_ = lost;
+  EXPECT_EQ(stop_once_more(), Texts{"robot stopped, release the stick"});
+  const Cue stopped = last_;
+  EXPECT_EQ(stop_once_more(), Texts{});
+  last_ = stopped;
   note(1, {CueStage::dropped});
-  EXPECT_EQ(lose_and_find(), Texts{"the robot does not report its motion"});
+  EXPECT_EQ(stop_once_more(), Texts{"robot stopped, release the stick"});
 }
 
 TEST_F(CuePolicyTest, N7_does_not_chatter_on_a_quiet_drive) {

@@ -18,6 +18,7 @@ bool stops(const Cue& cue) { return family_of(cue.kind) == Family::halt; }
 /// What a lost device makes untrue before it was said.
 std::optional<Content> undone_by(const Content& lost) {
   if (lost == CueKind::proximity_lost) return CueKind::proximity_back;
+  if (lost == CueKind::connection_lost) return Content(CueKind::back, About::connection);
   if (lost != CueKind::stick_lost) return std::nullopt;
   return lost.about == About::pad ? CueKind::pad_back : Content(CueKind::back, lost.about);
 }

@@ -38,6 +38,21 @@ TEST_F(LinkCuesTest, T3_names_only_the_simulator_when_all_dies_with_it) {
   EXPECT_EQ(last_.priority, Priority::important);
 }
 
+TEST_F(LinkCuesTest, T3_says_each_time_that_the_connection_is_lost_and_that_it_is_back) {
+  under_way();
+  for (const double seconds : {0.4, 1.0, 3.0})
+    for (int i = 0; i < 3; ++i) {
+      now_.links.simulator = now_.links.guidance = Link::lost;
+      now_.cut_off = true;
+      EXPECT_EQ(pass(seconds), Texts{"connection lost"}) << seconds;
+      now_.links.simulator = now_.links.guidance = Link::alive;
+      now_.cut_off = false;
+      const Texts back = pass(seconds);
+      ASSERT_FALSE(back.empty()) << seconds;
+      EXPECT_EQ(back.front(), "connection back") << seconds;
+    }
+}
+
 TEST_F(LinkCuesTest, names_only_the_simulator_whichever_of_its_messages_is_missed_first) {
   under_way();
   now_.simulated = true;
