@@ -48,6 +48,8 @@ class VirtualPad {
   void press(int button, bool down) {
     SDL_JoystickSetVirtualButton(joystick_, button, down ? 1 : 0);
   }
+  /// From now on its motors take no command, or do again.
+  void refuse(bool refuses) { refuses_ = refuses; }
   [[nodiscard]] SDL_JoystickID instance() const { return instance_; }
   [[nodiscard]] int left() const { return left_; }
   [[nodiscard]] int right() const { return right_; }
@@ -58,6 +60,7 @@ class VirtualPad {
  private:
   static Sint16 raw(double value) { return static_cast<Sint16>(std::lround(value * 32767.0)); }
   static int on_rumble(void* self, Uint16 low, Uint16 high) {
+    if (static_cast<VirtualPad*>(self)->refuses_) return -1;
     static_cast<VirtualPad*>(self)->left_ = low;
     static_cast<VirtualPad*>(self)->right_ = high;
     return 0;
@@ -71,6 +74,7 @@ class VirtualPad {
 
   SDL_Joystick* joystick_ = nullptr;
   SDL_JoystickID instance_ = -1;
+  std::atomic<bool> refuses_{false};
   std::atomic<int> left_{-1};
   std::atomic<int> right_{-1};
   std::atomic<int> left_trigger_{-1}, right_trigger_{-1};

@@ -88,6 +88,7 @@ class Gamepad::Pad {
     return beat_ && now - *beat_ > kSilence;
   }
   [[nodiscard]] SDL_JoystickID instance() const { return instance_; }
+  [[nodiscard]] bool rumbles() const { return has_rumble_ && !refused_; }
 
   void describe(Gamepad::Status& status) const {
     const char* name = SDL_GameControllerName(pad_.get());
@@ -113,8 +114,11 @@ class Gamepad::Pad {
       const double part = std::chrono::duration<double>(now - opened_) / kPrime;
       least = kPrimeForce * (1.0 - std::abs(2.0 * part - 1.0));
     }
-    const MotorValues wanted(motor_value(std::max(wish.left, least)),
-                             motor_value(std::max(wish.right, least)));
+    MotorValues wanted(motor_value(std::max(wish.left, least)),
+                       motor_value(std::max(wish.right, least)));
+    // What has refused is asked softly; SDL passes on only what differs from what was done last.
+    const Uint16 soft = motor_value(kPrimeForce);
+    if (refused_) wanted = {soft, done_.second == 0 ? soft : Uint16{0}};
     const bool resend = wanted != MotorValues() && now - sent_time_ >= kResend;
     const MotorValues triggers = wish.sides && has_triggers_ ? wanted : MotorValues();
     const bool same = wanted == sent_ && triggers == triggers_;
@@ -126,9 +130,11 @@ class Gamepad::Pad {
       SDL_GameControllerRumbleTriggers(pad_.get(), triggers.first, triggers.second,
                                        static_cast<Uint32>(kExpiry.count()));
     triggers_ = triggers;
-    const int result = SDL_GameControllerRumble(pad_.get(), wanted.first, wanted.second,
-                                                static_cast<Uint32>(kExpiry.count()));
-    return result >= 0 ? command : Command::refused;
+    refused_ = SDL_GameControllerRumble(pad_.get(), wanted.first, wanted.second,
+                                        static_cast<Uint32>(kExpiry.count())) < 0;
+    if (refused_) return Command::refused;
+    done_ = wanted;
+    return command;
   }
   void silence() {
     if (has_rumble_) SDL_GameControllerRumble(pad_.get(), 0, 0, 0);
@@ -140,7 +146,8 @@ class Gamepad::Pad {
   SDL_JoystickID instance_;
   bool has_rumble_, has_triggers_;
   Clock::time_point opened_;
-  MotorValues sent_, triggers_;
+  MotorValues sent_, done_, triggers_;
+  bool refused_ = false;  ///< the last command
   Clock::time_point sent_time_;
   std::optional<Clock::time_point> beat_;  ///< the last of its sensor
 };
@@ -289,9 +296,9 @@ void Gamepad::move_motors(Clock::time_point now) {
   }
   const Pad::Command command = pad_->drive(wish, now);
   if (command == Pad::Command::another && called) called();
-  if (command != Pad::Command::refused) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++status_.rumble_errors;
+  status_.has_rumble = pad_->rumbles();
+  if (command == Pad::Command::refused) ++status_.rumble_errors;
 }
 
 }  // namespace navvi_feedback::devices

@@ -284,6 +284,25 @@ TEST_F(GamepadWith, J6_a_pad_without_rumble_says_so) {
   EXPECT_EQ(gamepad.status().rumble_errors, 0u);
 }
 
+TEST_F(ConnectedPad, J6_a_pad_that_refuses_its_rumble_has_none_until_it_obeys_again) {
+  std::this_thread::sleep_for(kPriming);
+  const auto has_rumble = [&] { return gamepad.status().has_rumble; };
+  for (const haptics::Rumble& last : {haptics::Rumble{0.5, 0.5}, haptics::Rumble{0.7, 0.0}}) {
+    ASSERT_TRUE(reaches(gamepad, last, [&] { return pad.left() > 32000 && has_rumble(); }));
+    pad.refuse(true);
+    EXPECT_TRUE(reaches(gamepad, {0.0, 0.6}, [&] { return !has_rumble(); }));
+    EXPECT_GT(gamepad.status().rumble_errors, 0U);
+    for (const haptics::Rumble& wish : {haptics::Rumble{}, last, haptics::Rumble{0.06, 0.06}}) {
+      gamepad.rumble(wish);
+      EXPECT_FALSE(eventually(has_rumble, 250ms)) << wish.left;
+    }
+    EXPECT_TRUE(gamepad.input().live);
+    pad.refuse(false);
+    EXPECT_TRUE(eventually(has_rumble)) << "though nothing is to be felt";
+    EXPECT_TRUE(eventually([&] { return pad.left() == 0 && pad.right() == 0; }));
+  }
+}
+
 /// A virtual pad with a sensor that streams at 100 Hz until it is frozen.
 class StreamingPad {
  public:
