@@ -14,18 +14,22 @@ std::optional<person::PersonFile> file_of(const NodeConfig& config) {
   return person::PersonFile::of<PersonConfig>(config.person);
 }
 
-std::vector<person::Failure> joined(std::vector<person::Failure> some,
-                                    const std::vector<person::Failure>& more) {
-  some.insert(some.end(), more.begin(), more.end());
-  return some;
+/// A master may be far, or gone.
+void tell_master(const std::vector<std::string>& words) {
+  ros::master::setRetryTimeout(ros::WallDuration(1.0));
+  for (const std::string& word : words) {
+    const std::size_t end = word.find(":=");
+    ros::param::set("~" + word.substr(0, end), word.substr(end + 2));
+  }
 }
 
-std::vector<Content> cues_of(const std::vector<person::Failure>& failures) {
+std::vector<Content> cues_of(const std::vector<std::vector<person::Failure>>& all) {
   std::vector<Content> cues;
-  for (const auto& [cue, detail] : failures) {
-    if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
-    cues.push_back(cue);
-  }
+  for (const auto& failures : all)
+    for (const auto& [cue, detail] : failures) {
+      if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
+      cues.push_back(cue);
+    }
   return cues;
 }
 
@@ -36,6 +40,7 @@ Settings::Settings(NodeConfig& config)
       file_(file_of(config)),
       saver_(file_ ? Save([file = *file_](const auto& words) { file.save(words); }) : Save(),
              {CueKind::settings, file_ ? About::not_saved : About::not_kept}),
+      master_(tell_master, {}),
       places_([path = config.feedback->places](
                   const std::vector<menu::NamedPlace>& places) { menu::add_places(path, places); },
               CueKind::place_not_saved) {}
@@ -54,8 +59,7 @@ std::map<std::string, std::string> Settings::values() const {
 
 void Settings::change(const std::string& word) {
   navvi_config::read(config_, navvi_config::read_words({word}), "the menu");
-  const std::size_t end = word.find(":=");
-  ros::param::set("~" + word.substr(0, end), word.substr(end + 2));
+  master_.save(word);
   saver_.save(word);
 }
 
@@ -78,10 +82,8 @@ void Settings::keep(const core::Output& told) {
 }
 
 std::vector<Content> Settings::failures() {
-  return cues_of(joined(saver_.update(), places_.update()));
+  return cues_of({master_.update(), saver_.update(), places_.update()});
 }
-std::vector<Content> Settings::finish() {
-  return cues_of(joined(saver_.finish(), places_.finish()));
-}
+std::vector<Content> Settings::finish() { return cues_of({saver_.finish(), places_.finish()}); }
 
 }  // namespace navvi_feedback::node
