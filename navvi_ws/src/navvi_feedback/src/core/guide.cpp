@@ -54,12 +54,13 @@ Guide::Parts::Parts(const GuideConfig::Values& config, cues::Phrases worded)
   if (config.link.simulated()) wire.emplace(config.link);
   menu.lock(config.locked);
   if (!config.places.empty()) menu.take(menu::read_places(config.places));
-  if (config.lead == "hand" && !config.haptics.enabled)
+  if (!config.may_lead(config.lead))
     throw navvi_config::ConfigError(
-        "lead is hand, but haptics/enabled is false; the motors lead only where they are on");
-  if (config.lead == "flow" && !config.sounds.enabled)
-    throw navvi_config::ConfigError(
-        "lead is flow, but sounds/enabled is false; a sound leads only where sounds are on");
+        config.lead == "hand"
+            ? "lead is hand, but haptics/enabled is false; the motors lead only where they are on"
+            : "lead is flow, but sounds/enabled is false; a sound leads only where sounds are on");
+  for (const char* way : {"flow", "hand"})
+    if (!config.may_lead(way)) menu.withdraw(way);
 }
 
 void Guide::Parts::take(const TrialState& state, double time) {

@@ -28,6 +28,11 @@ struct GuideConfig::Values {
   haptics::HapticsConfig haptics;
   sounds::SoundsConfig sounds;
   cues::CuePolicyConfig cues;
+
+  /// \param way  as `lead` \return whether what it leads by is on
+  [[nodiscard]] bool may_lead(const std::string& way) const {
+    return (way != "hand" || haptics.enabled) && (way != "flow" || sounds.enabled);
+  }
 };
 
 }  // namespace navvi_feedback::core

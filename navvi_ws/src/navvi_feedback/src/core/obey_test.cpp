@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <set>
 
 #include "guide_fixture.hpp"
 #include "temp_folder.hpp"
@@ -194,6 +195,34 @@ TEST_F(GuideTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_onc
   plays_.clear();
   EXPECT_EQ(press(kUp).change, "sounds/hit/on:=true");
   EXPECT_EQ(played(sounds::Earcon::hit_shelf), 1);
+}
+
+TEST_F(GuideTest, no_way_of_leading_is_offered_with_which_it_would_not_start_anew) {
+  using Ways = std::set<std::string>;
+  for (const bool haptics : {true, false})
+    for (const bool sounds : {true, false}) {
+      GuideConfig config;
+      config->haptics.enabled = haptics;
+      config->sounds.enabled = sounds;
+      Guide guide(config, cues::Phrases(kEnglish));
+      guide.offer({{"lead", "words"}});
+      Ways ways;
+      const auto press = [&](drive::Button button) {
+        input_.asked = {button};
+        const Beat output = beat(guide, input_, time_ += 0.02);
+        if (!output.change.empty()) ways.insert(output.change.substr(output.change.find('=') + 1));
+      };
+      for (int i = 0; i < 3; ++i) press(drive::Button::choose);
+      for (int i = 0; i < 5; ++i) press(drive::Button::previous);
+      for (int i = 0; i < 5; ++i) press(drive::Button::next);
+      EXPECT_EQ(ways.count("flow") + ways.count("hand"), (haptics ? 1U : 0U) + (sounds ? 1U : 0U));
+      EXPECT_EQ(ways.count("words") + ways.count("ticks"), 2U);
+      for (const std::string& way : ways) {
+        config->lead = way;
+        EXPECT_NO_THROW(Guide(config, cues::Phrases(kEnglish))) << way;
+      }
+    }
+  input_.asked.clear();
 }
 
 }  // namespace

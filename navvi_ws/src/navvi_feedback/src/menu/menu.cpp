@@ -80,7 +80,7 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
       entries.push_back({level.goal->say(entry(About::goal_sure)), {}, level.goal});
       break;
     case List::settings:
-      for (const Setting& setting : settings())
+      for (const Setting& setting : settings_)
         if (const auto value = values_.find(setting.key); value != values_.end())
           entries.push_back(
               {setting.say(About::setting, value->second), List::setting, {}, {}, &setting});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,6 +51,14 @@ class Menu {
   /// What can be set. \param values  by the key of each setting, as parameters have them
   void take_settings(std::map<std::string, std::string> values) {
     if (!locked_) values_ = std::move(values);
+  }
+
+  /// \param value  of a setting that is not to be offered
+  void withdraw(const std::string& value) {
+    for (Setting& setting : settings_) {
+      auto& values = setting.values;
+      values.erase(std::remove(values.begin(), values.end(), value), values.end());
+    }
   }
 
   /// Other buttons than its own are ignored.
@@ -109,6 +118,7 @@ class Menu {
   std::vector<NamedPlace> places_;
   std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
   TrialState::State trial_ = TrialState::State::free;
+  std::vector<Setting> settings_ = settings();
   std::map<std::string, std::string> values_;
   std::vector<Level> path_;  ///< from the top; empty while closed
   double idle_ = 0.0;        ///< s, since the last press
