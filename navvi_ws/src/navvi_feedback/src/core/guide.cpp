@@ -59,6 +59,7 @@ Guide::Parts::Parts(const GuideConfig::Values& config, cues::Phrases worded)
         config.lead == "hand"
             ? "lead is hand, but haptics/enabled is false; the motors lead only where they are on"
             : "lead is flow, but sounds/enabled is false; a sound leads only where sounds are on");
+  if (!teacher.has_glossary()) menu.withdraw_glossary();
   for (const char* way : {"flow", "hand"})
     if (!config.may_lead(way)) menu.withdraw(way);
 }

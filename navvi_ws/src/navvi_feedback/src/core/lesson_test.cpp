@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <navvi_config/reader.hpp>
 #include <set>
 
 #include "beat.hpp"
 #include "lessons/tutorial.hpp"
+#include "temp_folder.hpp"
 
 namespace navvi_feedback::core {
 namespace {
@@ -110,6 +112,44 @@ TEST(Lesson, shows_the_sentence_that_it_says_in_each_of_its_steps) {
     if (lesson != std::string("tutorial")) continue;
     for (const auto& step : lessons::Tutorial::steps())
       EXPECT_EQ(keys.count("tutorial_" + std::string(step.name)), 1U) << step.name;
+  }
+}
+
+/// The English phrases with a text of a lesson less; nullptr: without any lesson.
+cues::Phrases without(const char* text) {
+  const navvi_test::TempFolder folder;
+  YAML::Node file = YAML::LoadFile(kEnglish);
+  text ? file["lessons"].remove(text) : file.remove("lessons");
+  return cues::Phrases(folder.write("phrases.yaml", YAML::Dump(file)));
+}
+
+TEST(Lesson, whose_texts_are_missing_is_refused_at_the_start_and_not_once_it_is_wanted) {
+  const auto refusal = [](const char* lesson, const char* text) -> std::string {
+    try {
+      Guide(Learner::config(lesson), without(text));
+      return "";
+    } catch (const navvi_config::ConfigError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal("none", nullptr), "");
+  EXPECT_EQ(refusal("none", "tutorial_stop"), "");
+  EXPECT_NE(refusal("none", "glossary_end").find("lessons/glossary_end"), std::string::npos);
+  EXPECT_NE(refusal("tutorial", "tutorial_stop").find("lessons/tutorial_stop"), std::string::npos);
+  EXPECT_NE(refusal("tutorial", nullptr), "");
+}
+
+TEST(Lesson, is_not_in_the_menu_where_the_phrases_have_none) {
+  for (const char* text : {"tutorial_stop", static_cast<const char*>(nullptr)}) {
+    Guide guide(GuideConfig{}, without(text));
+    Devices input;
+    int told = 0;
+    for (double time = 10.0; time < 11.0; time += 0.02) {
+      input.asked = {drive::Button::next};
+      for (const cues::Cue& cue : beat(guide, input, time).cues)
+        told += cue == Content(CueKind::menu, About::menu_glossary) ? 1 : 0;
+    }
+    EXPECT_EQ(told > 0, text != nullptr);
   }
 }
 

@@ -20,6 +20,10 @@ Teacher::Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsC
       sounds_(sounds),
       robot_delay_(robot_delay) {
   if (first_ == "questionnaire") questions_ = read_questions(questions);
+  // A text that is missing is told now, and not once a lesson is chosen.
+  if (has_glossary()) begin("glossary", "");
+  begin(first_, "");
+  lesson_.reset();
 }
 
 void Teacher::use(const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,

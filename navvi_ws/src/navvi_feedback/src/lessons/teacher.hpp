@@ -17,7 +17,8 @@ class Teacher {
   /// \param first  "glossary", "tutorial", "calibrate" or "questionnaire"; "none": no lesson first
   /// \param robot_delay  s, as Calibration takes it
   /// \param questions  path, as read_questions() takes it; of a questionnaire
-  /// \throws navvi_config::ConfigError if they cannot be asked
+  /// \throws navvi_config::ConfigError if they cannot be asked, or if the phrases lack a text of
+  /// the first lesson or, where they have any lesson, of the glossary
   Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsConfig& buttons,
           const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
           double robot_delay, const std::string& questions);
@@ -26,8 +27,8 @@ class Teacher {
   void use(const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
            const cues::WordingConfig& wording);
 
+  [[nodiscard]] bool has_glossary() const { return !phrases_.lessons().empty(); }
   /// \param pad  whose motors are felt
-  /// \throws navvi_config::ConfigError if the phrases lack a text of the lesson
   void begin(const std::string& lesson, const std::string& pad);
   /// Call it at 50 Hz. The first lesson begins as soon as there are hands; one that was chosen ends
   /// with the beginning of a trial. \param time  s, of a clock that does not run backwards
