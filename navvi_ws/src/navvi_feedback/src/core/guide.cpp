@@ -186,7 +186,9 @@ void Guide::Parts::move_motors(std::optional<haptics::Pattern> pattern, const De
   out.rumble_due = due.feedback;
   out.rumble_moved = due.moved;
   // The record holds what can have been felt.
-  if (due.changed && devices.felt) out.felt = rumble_event(out.rumble, pattern, ++rumbles);
+  const haptics::Rumble felt = devices.felt ? out.rumble : haptics::Rumble{};
+  if (!devices.felt) pattern.reset();
+  if (felt_output.update(felt, time).changed) out.felt = rumble_event(felt, pattern, ++rumbles);
   if (flow_output.update(out.flow, time).changed) out.flowed = flow_event(out.flow, ++sounds_begun);
 }
 

@@ -107,7 +107,7 @@ struct Guide::Parts {
   lessons::Teacher teacher;
   lead::Pilot pilot;
   lead::Following following;  ///< what sounds all the time
-  haptics::RumbleOutput rumble_output, flow_output;
+  haptics::RumbleOutput rumble_output, felt_output, flow_output;
 
   std::vector<Content> news;       ///< not said yet
   std::vector<cues::Cue> decided;  ///< at the last beat, to be spoken, most urgent first

@@ -157,6 +157,29 @@ TEST_F(GuideTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs) {
   EXPECT_FALSE(said(CueKind::record_lost)) << "nothing is recorded between trials";
 }
 
+TEST_F(GuideTest, the_record_of_the_motors_ends_where_they_are_lost) {
+  double left = 0.0;
+  const auto recorded = [&](double seconds) {
+    for (const double end = time_ + seconds; time_ < end - 1e-9;)
+      if (const Beat out = pass(0.02); out.felt) left = out.felt->left;
+    return left;
+  };
+  const auto come_near = [&] {
+    guide_.take(Odometry{}, time_);
+    guide_.take(Proximity{0, {{ThingClass::worker, 1, 0.5, {0.9, 0.0}, true}}}, time_);
+  };
+  come_near();
+  EXPECT_GT(recorded(0.5), 0.1);
+  input_.felt = false;
+  EXPECT_EQ(recorded(0.1), 0.0);
+  guide_.take(Proximity{}, time_);
+  recorded(0.1);
+  input_.felt = true;
+  EXPECT_EQ(recorded(0.1), 0.0);
+  come_near();
+  EXPECT_GT(recorded(0.5), 0.1);
+}
+
 TEST_F(GuideTest, says_each_time_to_who_has_no_motors_what_others_feel) {
   input_.keyboard = true;
   input_.felt = false;
