@@ -115,6 +115,19 @@ TEST(Lesson, shows_the_sentence_that_it_says_in_each_of_its_steps) {
   }
 }
 
+TEST(Lesson, lets_it_be_heard_that_what_it_found_cannot_be_saved) {
+  Learner learner("calibrate");
+  bool heard = false;
+  learner.learn(20.0, [&](const Beat& output) {
+    if (learner.time_ > 15.0 && learner.time_ < 15.02)
+      learner.guide_.announce({CueKind::settings, About::not_saved});
+    for (const CueEvent& event : output.events)
+      heard = heard || (event.stage == CueStage::started &&
+                        event.content() == Content(CueKind::settings, About::not_saved));
+  });
+  EXPECT_TRUE(heard);
+}
+
 /// The English phrases with a text of a lesson less; nullptr: without any lesson.
 cues::Phrases without(const char* text) {
   const navvi_test::TempFolder folder;

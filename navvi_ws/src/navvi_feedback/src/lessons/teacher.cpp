@@ -58,7 +58,8 @@ void Teacher::join(std::vector<cues::Cue>& cues) const {
       CueKind::arrived, CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away,
       CueKind::release_stick, CueKind::pad_back, {CueKind::back, About::keyboard},
       {CueKind::back, About::audio}, {CueKind::back, About::picture},
-      {CueKind::settings, About::of}, {CueKind::notice, About::no_rumble},
+      {CueKind::settings, About::of}, {CueKind::settings, About::not_saved},
+      {CueKind::notice, About::no_rumble},
       {CueKind::notice, About::second_pad}, {CueKind::notice, About::pad_firmware}};
   if (speaks())
     cues.erase(std::remove_if(cues.begin(), cues.end(),

@@ -77,8 +77,10 @@ void Settings::keep(const core::Output& told) {
   }
   if (found_ == told.settings) return;
   found_ = told.settings;
-  for (const std::string& word : found_) ROS_INFO("Found: feedback/%s", word.c_str());
-  if (file_) file_->save(found_);  // before it is said
+  for (const std::string& word : found_) {
+    ROS_INFO("Found: feedback/%s", word.c_str());
+    if (file_) saver_.save(word);
+  }
 }
 
 std::vector<Content> Settings::failures() {

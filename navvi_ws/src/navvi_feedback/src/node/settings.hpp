@@ -44,7 +44,7 @@ class Settings {
   person::Saver<std::string> saver_, master_;  ///< to the file; for this node, if it starts anew
   person::Saver<menu::NamedPlace> places_;
   std::string recorded_;            ///< of the lesson, as it is in the file
-  std::vector<std::string> found_;  ///< by the lesson, and saved
+  std::vector<std::string> found_;  ///< by the lesson
 };
 
 }  // namespace navvi_feedback::node

@@ -9,7 +9,10 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <future>
+
+#include "temp_folder.hpp"
 
 namespace navvi_feedback::node {
 namespace {
@@ -61,6 +64,19 @@ TEST(Settings, M1_are_in_force_at_once_where_no_master_answers) {
   EXPECT_EQ(config.speaker.rate, 260);
   EXPECT_EQ(config.feedback->lead, "words");
   EXPECT_EQ(failures, std::vector<Content>(1, {CueKind::settings, About::not_kept}));
+}
+
+TEST(Settings, that_a_lesson_found_and_cannot_be_saved_are_told_of) {
+  const navvi_test::TempFolder home;
+  setenv("NAVVI_PEOPLE", home.write("people", "a file where the folder should be").c_str(), 1);
+  NodeConfig config;
+  config.person = "anna";
+  Settings settings(config);
+  core::Output told;
+  told.settings = {"sounds/turn/stopping_delay:=0.4"};
+  settings.keep(told);
+  settings.keep(told);
+  EXPECT_EQ(settings.finish(), std::vector<Content>(1, {CueKind::settings, About::not_saved}));
 }
 
 }  // namespace
