@@ -79,7 +79,7 @@ class FeedbackNode {
     std::function<void()> called;
     if (caused) called = [this, chain = *caused, begun] { devices_.latencies().add(chain, begun); };
     const double time = last_tick_ = now();
-    if (!caused && beat_.becomes_late(time)) {
+    if (beat_.becomes_late(time)) {
       ROS_WARN(
           "The computer is too busy: touch and words come late. Close other programs; "
           "doc/driving.md says how NavVI goes before them.");
