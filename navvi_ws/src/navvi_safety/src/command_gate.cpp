@@ -20,10 +20,8 @@ void CommandGateConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
   visit(timeout, "timeout", Range{0.05, 0.25}, "s",
         "longest age of the last valid command, by wall clock and by sim clock");
-  visit(max_linear, "max_linear", Range{0.1, 3.0}, "m/s",
-        "commands beyond are clamped and counted");
-  visit(max_angular, "max_angular", Range{0.1, 6.0}, "rad/s",
-        "commands beyond are clamped and counted");
+  visit(max_linear, "max_linear", Range{0.1, 3.0}, "m/s", "commands beyond are clamped");
+  visit(max_angular, "max_angular", Range{0.1, 6.0}, "rad/s", "commands beyond are clamped");
   visit(foresight, "foresight", navvi_config::Any{}, "",
         "guidance is ahead of the robot by the measured delay of the connection, where that is "
         "felt, and speed is limited by it");
@@ -65,7 +63,6 @@ void CommandGate::receive(const Command& command, const Instant& now) {
   if (late == LinkMeter::Late::too_late) return;
   command_.linear = std::clamp(velocity->linear, -config_.max_linear, config_.max_linear);
   command_.angular = std::clamp(velocity->angular, -config_.max_angular, config_.max_angular);
-  if (command_.linear != velocity->linear || command_.angular != velocity->angular) ++clamped_;
 
   const bool neutral = std::abs(command_.linear) <= config_.kNeutralLinear &&
                        std::abs(command_.angular) <= config_.kNeutralAngular;

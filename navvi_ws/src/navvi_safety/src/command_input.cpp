@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <navvi_types/msg_conversion.hpp>
+#include <navvi_types/subscribe.hpp>
 
 namespace navvi_safety {
 
@@ -49,32 +50,20 @@ void CommandInput::receive(const ros::MessageEvent<const geometry_msgs::TwistSta
                       gate_.rejected());
 }
 
-namespace {
-
-/// Hands on each message that is valid. \param take  of what it holds
-template <typename Msg, typename Take>
-ros::Subscriber subscribe(ros::NodeHandle& node, const std::string& topic, const Take& take) {
-  const boost::function<void(const boost::shared_ptr<const Msg>&)> receive =
-      [take](const auto& msg) {
-        if (const auto value = navvi_types::from_msg(*msg)) take(*value);
-      };
-  return node.subscribe<Msg>(topic, 1, receive, {}, ros::TransportHints().tcpNoDelay());
-}
-
-}  // namespace
-
 ros::Subscriber see_by(ros::NodeHandle& node, const std::string& topic, CommandGate& gate,
                        const std::function<Instant()>& now) {
-  return subscribe<navvi_msgs::Proximity>(
-      node, topic, [&gate, now](const auto& proximity) { gate.see(proximity.things, now()); });
+  return navvi_types::subscribe<navvi_msgs::Proximity>(
+      node, topic, 1, navvi_types::from_msg,
+      [&gate, now](const auto& proximity) { gate.see(proximity.things, now()); });
 }
 
 ros::Subscriber limit_by(ros::NodeHandle& node, CommandGate& gate,
                          const std::function<Instant()>& now) {
   std::string zones;
   if (node.getParam("nav_node/mesh/zones", zones) && !zones.empty()) gate.limit({}, {});
-  return subscribe<navvi_msgs::Zone>(
-      node, "navvi/zone", [&gate, now](const auto& zone) { gate.limit(zone, now()); });
+  return navvi_types::subscribe<navvi_msgs::Zone>(
+      node, "navvi/zone", 1, navvi_types::from_msg,
+      [&gate, now](const auto& zone) { gate.limit(zone, now()); });
 }
 
 LinkOutlet::LinkOutlet(ros::NodeHandle& node)

@@ -4,7 +4,6 @@
 
 #include "core/events.hpp"
 #include "core/guide_parts.hpp"
-#include "lead/course.hpp"
 
 namespace navvi_feedback::core {
 

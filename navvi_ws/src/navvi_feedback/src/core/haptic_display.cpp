@@ -16,9 +16,6 @@ constexpr double kAhead = 0.79;      // rad
 constexpr double kMetresATap = 5.0;  // m
 constexpr double kMostTaps = 8.0;
 
-/// The pulses of the way tell it.
-bool is_way(haptics::Pattern pattern) { return pattern == haptics::Pattern::rerouted; }
-
 bool is_hit(haptics::Pattern pattern) {
   return pattern == haptics::Pattern::hit_obstacle || pattern == haptics::Pattern::hit_shelf;
 }
@@ -74,8 +71,10 @@ void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const Observation&
                           const lessons::Taught& taught) {
   if (!config_.enabled || !config_.patterns) return;
   if (taught.pattern) patterns_.begin(*taught.pattern, taught.side);
+  // The pulses of the way tell of a new route.
   for (const cues::Cue& cue : cues)
-    if (const auto pattern = pattern_of(cue, deaf_); pattern && !(now.lead == Lead::hand && is_way(*pattern)))
+    if (const auto pattern = pattern_of(cue, deaf_);
+        pattern && !(now.lead == Lead::hand && pattern == haptics::Pattern::rerouted))
       patterns_.begin(*pattern, side_of(*pattern, now.assistance));
   for (const Contact& contact : now.contacts)
     patterns_.begin(cues::is_structure(contact.thing_class) ? haptics::Pattern::hit_shelf

@@ -12,8 +12,6 @@ namespace navvi_feedback::cues {
 
 using Family = navvi_types::CueFamily;
 
-struct Utterance;  // what is to be told, before it is put into words
-
 /// One spoken message, before it is spoken.
 struct Cue : Content {
   std::string text = {};  ///< as spoken

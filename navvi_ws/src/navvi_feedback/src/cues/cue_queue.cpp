@@ -48,9 +48,7 @@ CueQueue::Step CueQueue::clear() {
     step.events.push_back(event(running_->id, CueStage::cut, running_->cue));
     running_.reset();
   }
-  for (const Entry& entry : waiting_)
-    step.events.push_back(event(entry.id, CueStage::dropped, entry.cue));
-  waiting_.clear();
+  drop([](const Entry&) { return true; }, step);
   return step;
 }
 

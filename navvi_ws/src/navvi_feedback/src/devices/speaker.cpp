@@ -127,17 +127,16 @@ void Speaker::run(std::promise<void> ready) {
 }
 
 bool Speaker::speak(Voice& voice, Job& job) {
-  const auto cancelled = [&] { return superseded(job.generation); };
   std::string rest = *job.text;
   bool spoken = true;
-  for (std::size_t part = 0; !rest.empty() && !cancelled(); ++part) {
+  for (std::size_t part = 0; !rest.empty() && !superseded(job.generation); ++part) {
     const auto comma = part < job.scan.size() ? rest.find(", ") : std::string::npos;
     const std::string words = rest.substr(0, comma);
     rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
     if (part < job.scan.size() && job.scan[part].volume > 0.0) play_first(job.scan[part], job);
     const bool said = say(voice, words, job);
     spoken = spoken && said;
-    if (!said && !cancelled()) play_first({sounds::Earcon::unsaid}, job);
+    if (!said && !superseded(job.generation)) play_first({sounds::Earcon::unsaid}, job);
   }
   return spoken;
 }

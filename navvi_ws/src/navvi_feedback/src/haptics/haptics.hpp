@@ -72,9 +72,6 @@ class Haptics {
   /// \param dt  s since the last call, >= 0
   [[nodiscard]] Rumble update(const std::vector<NearThing>& things, bool fresh, double dt);
 
-  /// The zone of what is felt now; nullopt while nothing is.
-  [[nodiscard]] std::optional<Zone> zone() const { return zone_; }
-
  private:
   struct Felt {
     double lateral = 0.0;  ///< m, to the left
@@ -97,7 +94,7 @@ class Haptics {
   std::string pad_;
   Motors motors_;
   std::vector<ThingClass> classes_;
-  std::optional<Zone> zone_;
+  std::optional<Zone> zone_;  // of what is felt
   double felt_for_ = 0.0;  // s since the present onset
   Rumble force_;           // after the ramp, before threshold and gain
 };

@@ -12,16 +12,9 @@ using devices::InputSource;
 using Sound = devices::Mixer::Status::Device;
 
 senses::Link link_of(Sound device) {
-  switch (device) {
-    case Sound::missing:
-      return senses::Link::never;
-    case Sound::lost:
-      return senses::Link::lost;
-    case Sound::open:
-    case Sound::off:
-      break;
-  }
-  return senses::Link::alive;
+  return device == Sound::missing ? senses::Link::never
+         : device == Sound::lost  ? senses::Link::lost
+                                  : senses::Link::alive;
 }
 
 }  // namespace

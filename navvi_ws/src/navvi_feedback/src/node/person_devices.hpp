@@ -35,9 +35,7 @@ class PersonDevices {
   bool move_motors(const haptics::Rumble& rumble, const std::function<void()>& called);
 
   [[nodiscard]] devices::InputSource& source() { return source_; }
-  [[nodiscard]] const devices::InputSource& source() const { return source_; }
   [[nodiscard]] devices::Latencies& latencies() { return latencies_; }
-  [[nodiscard]] const devices::Latencies& latencies() const { return latencies_; }
   [[nodiscard]] devices::Mixer::Status audio() const { return mixer_.status(); }
   [[nodiscard]] devices::Speaker::Status voice() const { return speech_.status(); }
   /// nullopt unless the stick is a pad of our own.

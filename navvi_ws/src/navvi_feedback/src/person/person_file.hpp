@@ -33,8 +33,6 @@ class PersonFile {
   /// std::runtime_error with a sentence if the file cannot be written
   void save(const std::vector<std::string>& words) const;
 
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
  private:
   [[nodiscard]] std::string text(const YAML::Node& values) const;
 

@@ -136,8 +136,9 @@ TEST_F(PersonFileTest, only_names_that_are_safe_are_taken) {
                   "\" is not a name for a person's settings; allowed are up to 24 letters, digits, - "
                   "and _, a letter or digit first.");
   unsetenv("NAVVI_PEOPLE");
-  setenv("HOME", "/home/anna", 1);
-  EXPECT_EQ(PersonFile::of<Config>("sub-01_b").path(), "/home/anna/.navvi/people/sub-01_b.yaml");
+  setenv("HOME", home_.string().c_str(), 1);
+  PersonFile::of<Config>("sub-01_b").save({"voice/rate:=300"});
+  EXPECT_TRUE(fs::exists(home_ / ".navvi/people/sub-01_b.yaml"));
 }
 
 }  // namespace

@@ -7,9 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstring>
 
 namespace navvi_feedback::process {
 namespace {
@@ -52,18 +50,15 @@ bool receive_all(int socket, char* to, std::size_t size, Clock::time_point until
 
 bool send(int socket, std::int32_t value, std::string_view bytes, int flags) {
   const Header header{value, static_cast<std::uint32_t>(bytes.size())};
-  std::array<char, sizeof header> head{};
-  std::memcpy(head.data(), &header, sizeof header);
-  return send_all(socket, head.data(), head.size(), flags) &&
+  return send_all(socket, reinterpret_cast<const char*>(&header), sizeof header, flags) &&
          send_all(socket, bytes.data(), bytes.size(), flags);
 }
 
 std::optional<Frame> receive(int socket, Clock::time_point until) {
   Header header{};
-  std::array<char, sizeof header> head{};
-  if (!receive_all(socket, head.data(), head.size(), until)) return std::nullopt;
-  std::memcpy(&header, head.data(), sizeof header);
-  if (header.size > kLargest) return std::nullopt;
+  if (!receive_all(socket, reinterpret_cast<char*>(&header), sizeof header, until) ||
+      header.size > kLargest)
+    return std::nullopt;
   Frame frame{header.value, std::string(header.size, '\0')};
   // The rest follows at once, unless the peer hangs.
   const auto rest = std::max(until, Clock::now() + std::chrono::milliseconds(100));

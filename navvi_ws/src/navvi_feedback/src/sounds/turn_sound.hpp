@@ -68,7 +68,6 @@ class TurnSound {
 
   /// The person takes its sounds for those of the other side: it is silent from now on.
   void find_sides_wrong() { learning_.found_sides_wrong(); }
-  [[nodiscard]] bool sounds() const { return counting_.has_value(); }
   /// It does so where there is something to turn.
   [[nodiscard]] bool leads() const { return !learnt().words_lead; }
   /// rad/s, that the robot is to turn at most, so that a late hand does little; nullopt: no limit

@@ -99,7 +99,6 @@ class CommandGate {
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] Reason reason() const { return reason_; }
   [[nodiscard]] unsigned rejected() const { return rejected_; }
-  [[nodiscard]] unsigned clamped() const { return clamped_; }
 
  private:
   /// The person's, or nothing while the wheels are held.
@@ -121,7 +120,6 @@ class CommandGate {
   State state_ = State::waiting;
   Reason reason_ = Reason::none;
   unsigned rejected_ = 0;
-  unsigned clamped_ = 0;
   std::string intruder_;
 };
 
