@@ -54,10 +54,9 @@ Guide::Parts::Parts(const GuideConfig::Values& config, cues::Phrases worded)
   menu.lock(config.locked);
   if (!config.places.empty()) menu.take(menu::read_places(config.places));
   if (!config.may_lead(config.lead))
-    throw navvi_config::ConfigError(
-        config.lead == "hand"
-            ? "lead is hand, but haptics/enabled is false; the motors lead only where they are on"
-            : "lead is flow, but sounds/enabled is false; a sound leads only where sounds are on");
+    throw navvi_config::ConfigError("lead is " + config.lead + ", but " +
+                                    (config.lead == "hand" ? "haptics" : "sounds") +
+                                    "/enabled is false; it leads only where these are on");
   if (!teacher.has_glossary()) menu.withdraw_glossary();
   for (const char* way : {"flow", "hand"})
     if (!config.may_lead(way)) menu.withdraw(way);

@@ -6,18 +6,10 @@
 #include "node/diagnostics.hpp"
 
 namespace navvi_feedback::node {
-namespace {
 
 using devices::InputSource;
+using senses::Link;
 using Sound = devices::Mixer::Status::Device;
-
-senses::Link link_of(Sound device) {
-  return device == Sound::missing ? senses::Link::never
-         : device == Sound::lost  ? senses::Link::lost
-                                  : senses::Link::alive;
-}
-
-}  // namespace
 
 PersonDevices::PersonDevices(const NodeConfig& config)
     : listener_(config.listener),
@@ -54,7 +46,10 @@ senses::Devices PersonDevices::read(double time) {
   senses::Devices now;
   now.hands = source_.read(time);
   now.keyboard = source_.kind() == InputSource::Kind::keyboard;
-  now.audio = speech_.status().works ? link_of(mixer_.status().device) : senses::Link::lost;
+  const Sound device = mixer_.status().device;
+  now.audio = !speech_.status().works || device == Sound::lost ? Link::lost
+              : device == Sound::missing                       ? Link::never
+                                                               : Link::alive;
   now.ears = ears();
   now.words = speech_wanted_ || by_topic();
   now.sounds = heard();
