@@ -97,7 +97,6 @@ class Gamepad::Pad {
     SDL_JoystickGetGUIDString(SDL_JoystickGetGUID(SDL_GameControllerGetJoystick(pad_.get())),
                               guid.data(), static_cast<int>(guid.size()));
     status.guid = guid.data();
-    status.instance = instance_;
     status.has_rumble = has_rumble_;
     status.firmware = SDL_GameControllerGetFirmwareVersion(pad_.get());
     status.jolting_firmware = SDL_GameControllerGetVendor(pad_.get()) == kSony &&

@@ -27,7 +27,6 @@ class Gamepad {
     bool connected = false;
     std::string name;               ///< as the pad reports it; empty if there is none
     std::string guid;               ///< SDL's, of this model, in hexadecimal digits; likewise
-    int instance = -1;              ///< SDL's instance id; another pad, another id
     bool has_rumble = false;        ///< and obeyed the last command to it
     bool heartbeat = false;         ///< the stream of its motion sensor has begun
     bool silent = false;            ///< and has ceased, though the pad is attached

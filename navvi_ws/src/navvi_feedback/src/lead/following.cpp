@@ -5,12 +5,6 @@
 
 namespace navvi_feedback::lead {
 
-void Following::miss() {
-  ++missed_;
-  since_.reset();
-  away_ = 0.0;
-}
-
 void Following::update(std::optional<double> off, const navvi_types::Velocity& motion,
                        double time) {
   constexpr double kMuch = 0.5;      // rad, to be turned
@@ -28,7 +22,10 @@ void Following::update(std::optional<double> off, const navvi_types::Velocity& m
   const bool towards = turns && motion.angular * *off < 0.0;
   away_ = turns && !towards ? away_ + std::abs(motion.angular) * dt : 0.0;
   if (towards || !since_) since_ = time;
-  if (away_ > kAway || time - *since_ > kPatience) miss();
+  if (away_ <= kAway && time - *since_ <= kPatience) return;
+  ++missed_;
+  since_.reset();
+  away_ = 0.0;
 }
 
 }  // namespace navvi_feedback::lead

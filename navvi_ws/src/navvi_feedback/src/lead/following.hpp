@@ -21,7 +21,6 @@ class Following {
 
  private:
   static constexpr int kMisses = 3;
-  void miss();
 
   int missed_ = 0;
   double away_ = 0.0;            ///< rad, that it now turns to the other side
