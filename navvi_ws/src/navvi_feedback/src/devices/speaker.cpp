@@ -21,6 +21,8 @@ constexpr auto kCloseLook = std::chrono::milliseconds(1);
 constexpr auto kIdlePoll = std::chrono::milliseconds(250);
 /// The mixer needs no longer to fade a stopped sound out.
 constexpr auto kFade = std::chrono::milliseconds(25);
+/// A device that has not played a sentence so long after its end hangs.
+constexpr auto kHangs = std::chrono::seconds(2);
 
 }  // namespace
 
@@ -203,7 +205,7 @@ bool Speaker::play(Voice& voice, const Sound& sound, Job& job) {
       audible = audible && mixer_.speak_on(*rest);
     }
     if (job.silent && begun && (faded || mixer_.mixed() > first)) std::exchange(job.silent, {})();
-    if (audible && !mixer_.speaking()) {
+    if (audible && (!mixer_.speaking() || Clock::now() > end + kHangs)) {
       audible = false;
       mixer_.tend();
     }

@@ -1,8 +1,11 @@
 #include "devices/speaker.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -278,6 +281,30 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
   }
   EXPECT_GT(loud_time(), 0.2);
   EXPECT_LT(loud_time(), 0.75) << "went on after stop()";
+}
+
+TEST(Speaker, F2_comes_to_the_end_of_a_sentence_that_a_device_takes_and_does_not_play) {
+  const std::filesystem::path pipe = recording_folder() / "heard.wav";  // full, and nobody reads it
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int end = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  std::thread reader;
+  {
+    Mixer mixer(MixerConfig{}, Audio::on);
+    Speaker speaker(SpeakerConfig{}, mixer);
+    for (const char* text : {"drive straight, 8 meters", "turn to 3 o'clock, 8 meters"}) {
+      speaker.start(text);
+      EXPECT_TRUE(wait_for([&] { return !speaker.busy(); })) << text;
+    }
+    // A device that is closed waits for what it still plays.
+    ::fcntl(end, F_SETFL, 0);
+    reader = std::thread([end] {
+      for (char bytes[4096]; ::read(end, bytes, sizeof bytes) > 0;) continue;
+    });
+  }
+  reader.join();
+  ::close(end);
+  std::filesystem::remove(pipe);
 }
 
 TEST(Speaker, tells_when_words_begin_to_be_heard_and_when_they_end) {
