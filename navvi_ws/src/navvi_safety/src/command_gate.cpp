@@ -97,8 +97,9 @@ void CommandGate::stop(Reason reason) {
 navvi_types::Velocity CommandGate::update(const Instant& now) {
   navvi_types::Velocity wheels = assistance_.assist(held_or_driven(now), now.sim);
   const bool unknown = zone_at_ && !younger_than(config_.kZoneStale, *zone_at_, now);
-  wheels.linear = std::clamp(wheels.linear, -(unknown ? config_.kZoneLost : zone_.backward),
-                             unknown ? config_.kZoneLost : zone_.forward);
+  const double most = unknown ? config_.kZoneLost : navvi_types::kFastest;
+  wheels.linear = std::clamp(wheels.linear, -std::min(zone_.backward, most),
+                             std::min(zone_.forward, most));
   wheels.angular = std::clamp(wheels.angular, -config_.max_angular, config_.max_angular);
   return wheels;
 }

@@ -390,6 +390,10 @@ TEST_F(Gate, drives_no_faster_than_zones_allow_and_slowly_where_they_are_silent)
   gate_.limit({}, now_);
   hold(0.1, Velocity{1.0, 0.0});
   EXPECT_EQ(wheels_.linear, 1.0);
+  zone.forward = 0.0;
+  gate_.limit(zone, now_);
+  hold(2.0, Velocity{1.0, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0) << "held at a border, it starts for no silence";
 }
 
 }  // namespace

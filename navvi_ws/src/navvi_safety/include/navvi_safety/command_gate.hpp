@@ -80,7 +80,7 @@ class CommandGate {
     assistance_.see(nearby, now.sim);
   }
 
-  /// What zones allow. From then on, where no newer one comes for kZoneStale, kZoneLost.
+  /// What zones allow. Where no newer one comes for kZoneStale, kZoneLost at most from then on.
   void limit(const navvi_types::ZoneState& zone, const Instant& now) {
     zone_ = zone;
     zone_at_ = now;
