@@ -13,6 +13,7 @@
 #include <octomap_msgs/Octomap.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
@@ -419,6 +420,51 @@ TEST_F(NavNodeTest, takes_its_goal_as_an_action_as_move_base_does) {
   EXPECT_EQ(client.getState(), State::ACTIVE) << "what cannot be read takes no goal's place";
   ask(2.1);
   EXPECT_TRUE(ends_as(State::SUCCEEDED)) << "the robot is there";
+}
+
+TEST_F(NavNodeTest, sends_a_goal_of_another_frame_again_in_map_for_all_who_read_goals) {
+  using State = actionlib::SimpleClientGoalState;
+  geometry_msgs::TransformStamped dock;
+  dock.header.stamp = ros::Time::now();
+  dock.header.frame_id = "map";
+  dock.child_frame_id = "dock";
+  dock.transform.translation.x = 13.0;
+  dock.transform.translation.y = 4.0;
+  dock.transform.rotation.w = 1.0;
+  tf2_ros::StaticTransformBroadcaster docks;
+  docks.sendTransform(dock);
+  std::optional<geometry_msgs::PoseStamped> heard;  // by trial_node and feedback_node
+  const auto hear = [&](const geometry_msgs::PoseStamped::ConstPtr& msg) {
+    if (msg->header.frame_id == "map") heard = *msg;
+  };
+  const ros::Subscriber reader =
+      node_.subscribe<geometry_msgs::PoseStamped>("move_base_simple/goal", 10, hear);
+  actionlib::SimpleActionClient<move_base_msgs::MoveBaseAction> client(node_, "move_base", false);
+  send_map();
+  ASSERT_TRUE(until([&] { return client.isServerConnected() && !mesh_.markers.empty(); }));
+  for (const bool action : {false, true}) {
+    heard.reset();
+    ASSERT_TRUE(until([&, sent = ros::WallTime()]() mutable {
+      if ((ros::WallTime::now() - sent).toSec() > 0.5 && !heard) {  // until the frame is known
+        sent = ros::WallTime::now();
+        move_base_msgs::MoveBaseGoal goal;
+        goal.target_pose.header.frame_id = "dock";
+        goal.target_pose.pose.position.x = goal.target_pose.pose.position.y = 1.0;
+        goal.target_pose.pose.orientation.w = 1.0;
+        if (action)
+          client.sendGoal(goal);
+        else
+          send_goal(1.0, 1.0, "dock");
+      }
+      return heard.has_value();
+    })) << action;
+    EXPECT_EQ(heard->pose.position.x, 14.0);
+    EXPECT_EQ(heard->pose.position.y, 5.0);
+    EXPECT_TRUE(until([&] { return guidance_.goal.x == 14.0 && guidance_.goal.y == 5.0; }));
+  }
+  EXPECT_EQ(client.getState(), State::ACTIVE);
+  client.cancelGoal();
+  EXPECT_TRUE(until([&] { return client.getState() == State::PREEMPTED; }));
 }
 
 TEST_F(NavNodeTest, N9_lives_on_after_garbage) {

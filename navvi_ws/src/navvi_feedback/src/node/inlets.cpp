@@ -137,8 +137,9 @@ void Inlets::subscribe_to_trials() {
   });
   listen<navvi_msgs::Scenario>("navvi/scenario", 1,
                                [this](const auto& scenario) { guide_.take(scenario, now()); });
-  listen<geometry_msgs::PoseStamped>("move_base_simple/goal", 10,
-                                     [this](const auto& goal) { guide_.take_goal(goal); });
+  subscribers_.push_back(navvi_types::subscribe<geometry_msgs::PoseStamped>(
+      node_, "move_base_simple/goal", 10, from_msg,
+      [this](const Eigen::Vector2d& goal) { guide_.take_goal(goal); }, "map"));
   subscribers_.push_back(navvi_types::subscribe<geometry_msgs::PointStamped>(
       node_, "clicked_point", 10, from_msg,
       [this](const Eigen::Vector2d& place) { guide_.take_place(place); }, "map"));

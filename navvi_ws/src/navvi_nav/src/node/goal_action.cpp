@@ -6,7 +6,7 @@
 namespace navvi_nav::node {
 
 GoalAction::GoalAction(const ros::NodeHandle& node,
-                       std::function<void(const geometry_msgs::PoseStamped&)> set_goal,
+                       std::function<void(geometry_msgs::PoseStamped&)> set_goal,
                        std::function<void()> cancel_goal)
     : set_goal_(std::move(set_goal)),
       cancel_goal_(std::move(cancel_goal)),

@@ -14,9 +14,9 @@ namespace navvi_nav::node {
 /// to it but the person, who is led there and takes the time they need.
 class GoalAction {
  public:
-  /// \param set_goal  as from the topic of goals \param cancel_goal  of the action
+  /// \param set_goal  as from the topic of goals, in map if its frame is known \param cancel_goal  of the action
   GoalAction(const ros::NodeHandle& node,
-             std::function<void(const geometry_msgs::PoseStamped&)> set_goal,
+             std::function<void(geometry_msgs::PoseStamped&)> set_goal,
              std::function<void()> cancel_goal);
 
   /// A goal of the topic to which it leads now: the action's, or one that takes its place.
@@ -34,7 +34,7 @@ class GoalAction {
            goal.pose.position == goal_.pose.position;
   }
 
-  std::function<void(const geometry_msgs::PoseStamped&)> set_goal_;
+  std::function<void(geometry_msgs::PoseStamped&)> set_goal_;
   std::function<void()> cancel_goal_;
   actionlib::SimpleActionServer<move_base_msgs::MoveBaseAction> server_;
   geometry_msgs::PoseStamped goal_;

@@ -105,7 +105,11 @@ class NavNode {
         node.subscribe("move_base_simple/goal", 10, &NavNode::on_goal, this)};
     goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     action_.emplace(
-        node, [this](const geometry_msgs::PoseStamped& goal) { goals_.publish(goal); },
+        node,
+        [this](geometry_msgs::PoseStamped& goal) {
+          goal = in_map(goal).value_or(goal);
+          goals_.publish(goal);
+        },
         [this] {
           navigator_.cancel_goal();
           publish_all();
@@ -146,13 +150,21 @@ class NavNode {
     const std::optional<Eigen::Vector2d> goal = navvi_types::from_msg(*msg);
     if (!goal) {
       drop_goal(*msg, Guidance::Refusal::not_finite, "the goal is not a finite point");
-    } else if (const std::optional<Eigen::Vector2d> there = in_map_frame(*goal, msg->header)) {
+    } else if (navvi_types::without_slash(msg->header.frame_id) == "map") {
       action_->take(*msg);
-      navigator_.set_goal(*there, msg->header.stamp.toSec());
+      navigator_.set_goal(*goal, msg->header.stamp.toSec());
+    } else if (const auto there = in_map(*msg)) {
+      goals_.publish(*there);  // also for those who record and remember goals
     } else {
       drop_goal(*msg, Guidance::Refusal::unknown_frame, "the goal's frame is not known");
     }
     publish_all();
+  }
+
+  std::optional<geometry_msgs::PoseStamped> in_map(const geometry_msgs::PoseStamped& goal) const {
+    const auto there = in_map_frame(*navvi_types::from_msg(goal), goal.header);
+    if (!there) return std::nullopt;
+    return navvi_types::goal_msg(*there, navvi_types::to_ns(goal.header.stamp));
   }
 
   void drop_goal(const geometry_msgs::PoseStamped& goal, Guidance::Refusal refusal,

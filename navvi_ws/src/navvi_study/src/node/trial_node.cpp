@@ -238,7 +238,11 @@ class TrialNode {
   }
 
   void on_goal(const ros::MessageEvent<geometry_msgs::PoseStamped const>& event) {
-    if (event.getPublisherName() == ros::this_node::getName()) return;
+    const std::string& frame = event.getConstMessage()->header.frame_id;
+    // One in another frame comes once more from nav_node, in map.
+    if (event.getPublisherName() == ros::this_node::getName() ||
+        navvi_types::without_slash(frame) != "map")
+      return;
     if (const auto goal = from_msg(*event.getConstMessage())) {
       keeper_.take_goal(*goal, now(), navvi_types::to_ns(event.getConstMessage()->header.stamp));
     } else {
