@@ -18,7 +18,9 @@ std::vector<Odometry> OdometryInMap::take(const Correction& correction) {
 }
 
 std::vector<Odometry> OdometryInMap::release() {
-  constexpr std::size_t kMostWaiting = 100;  // reports; then the last correction must do
+  // Then the last correction must do, as where a localizer tells one in seconds.
+  constexpr std::size_t kMostWaiting = 100;
+  constexpr std::int64_t kLongestWait = 200'000'000;  // ns
   std::vector<Odometry> reports;
   while (!waiting_.empty()) {
     Odometry report = waiting_.front();
@@ -26,7 +28,8 @@ std::vector<Odometry> OdometryInMap::release() {
         std::find_if(corrections_.begin(), corrections_.end(),
                      [&](const Correction& one) { return one.stamp >= report.stamp; });
     if (correction == corrections_.end() && !corrections_.empty()) {
-      if (waiting_.size() <= kMostWaiting) break;
+      if (waiting_.size() <= kMostWaiting && waiting_.back().stamp - report.stamp <= kLongestWait)
+        break;
       --correction;
     }
     if (correction != corrections_.end()) {

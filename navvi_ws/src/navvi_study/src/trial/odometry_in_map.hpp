@@ -21,7 +21,8 @@ struct Correction {
 };
 
 /// Takes odometry, which may drift, over to map. Each report gets the first correction that is not
-/// older than itself, whichever of the two comes first, so that a bag gives the same places again.
+/// older than itself, whichever of the two comes first, so that a bag gives the same places again;
+/// where none comes for 0.2 s, the last.
 /// Without corrections odom is map.
 class OdometryInMap {
  public:

@@ -67,5 +67,19 @@ TEST(OdometryInMap, goes_on_with_the_last_correction_when_no_more_come) {
   EXPECT_GE(count, 200u);
 }
 
+TEST(OdometryInMap, lags_little_behind_where_corrections_are_seconds_apart) {
+  constexpr std::int64_t kStep = 50'000'000;  // ns
+  OdometryInMap places;
+  std::int64_t last = 0;
+  for (std::int64_t i = 0; i < 400; ++i) {
+    if (i % 80 == 0) (void)places.take(Correction{i * kStep, {{0.0, 3.0}}});
+    for (const auto& report : places.take(Odometry{i * kStep, {{0.0, 1.0}}})) {
+      EXPECT_EQ(report.pose.position.y(), 4.0);
+      last = report.stamp;
+    }
+    EXPECT_LE(i * kStep - last, 200'000'000);
+  }
+}
+
 }  // namespace
 }  // namespace navvi_study::trial
