@@ -60,7 +60,9 @@ bool TrialMonitor::counts(std::int64_t stamp) {
   return start_ && stamp > start_->stamp && (!end_ || stamp <= *end_);
 }
 
-TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) const {
+TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) {
+  constexpr double kAhead = 1.0;  // s; farther only a clock can have been, which was set back
+  if (1e-9 * static_cast<double>(latest_ - stamp) > kAhead + round_trip_) latest_ = stamp;
   return {std::max(stamp, latest_), goal, hits_.contact_seq, hits_.shelf_count,
           hits_.obstacle_count};
 }
@@ -195,6 +197,9 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
     if (contact.seq == 1) world_restarted_ = true;
     return {};
   }
+  // The first of all that was seen, over a link to a world that others drove in before.
+  if (inside && hits_.contact_seq == 0)
+    hits_ = {contact.seq - 1, shelves - (shelf ? 1 : 0), obstacles - (shelf ? 0 : 1)};
   if (inside) {
     // Running counts that jump by more than this contact show the contacts that were lost.
     const std::uint64_t missed_shelf =

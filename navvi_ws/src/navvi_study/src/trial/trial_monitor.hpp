@@ -131,7 +131,7 @@ class TrialMonitor {
   [[nodiscard]] std::vector<Event> observe(const StateHash& state);
 
   /// What start() needs to know of the past.
-  [[nodiscard]] TrialStart start_now(std::int64_t stamp, const Eigen::Vector2d& goal) const;
+  [[nodiscard]] TrialStart start_now(std::int64_t stamp, const Eigen::Vector2d& goal);
   [[nodiscard]] const Tally& tally() const { return tally_; }
   /// Where the robot is, as fields.
   [[nodiscard]] record::Fields place() const;

@@ -100,6 +100,20 @@ TEST_F(Monitor, keeps_the_last_state_of_the_world_that_is_not_after_the_end) {
   EXPECT_EQ(monitor_.tally_fields().get("state_step"), "1100");
 }
 
+TEST_F(Monitor, counts_no_contacts_of_those_who_drove_in_the_same_world_before) {
+  EXPECT_EQ(seen(contact(11.0, 4, "shelf", 3, 1)), Names{"COLLISION"});
+  EXPECT_EQ(monitor_.tally().shelf_collisions, 1u);
+  EXPECT_EQ(monitor_.tally().missed_messages, 0u);
+}
+
+TEST_F(Monitor, T1_begins_at_the_time_that_is_where_the_clock_was_set_back) {
+  (void)monitor_.observe(guidance(5000.0, State::following));
+  EXPECT_EQ(monitor_.start_now(20 * kSecond, {5.0, 0.0}).stamp, 20 * kSecond);
+  (void)monitor_.observe(guidance(20.5, State::following));
+  EXPECT_EQ(monitor_.start_now(20 * kSecond, {5.0, 0.0}).stamp, 20'500'000'000)
+      << "a report is as new as that";
+}
+
 TEST_F(Monitor, R3_makes_a_lost_contact_good_from_the_running_counts) {
   (void)monitor_.observe(contact(11.0, 1, "shelf", 1, 0));
   const auto events = monitor_.observe(contact(12.0, 4, "shelf", 2, 2));
