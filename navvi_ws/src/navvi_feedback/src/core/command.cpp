@@ -6,14 +6,14 @@
 
 namespace navvi_feedback::core {
 
-std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt) {
+std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt, double time) {
   const drive::InputState& hands = devices.hands;
   // A device that was opened anew between two ticks was lost between them.
   const bool live = hands.live && (!last_hands.live || hands.session == last_hands.session);
   // A key that drives is itself held.
   const int enable = devices.keyboard ? -1 : config.drive.enable;
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
-  const bool held = teacher.teaching() ? teacher.holds() : senses.trial().holds();
+  const bool held = teacher.teaching() ? teacher.holds() : senses.holds(time);
   // Where the motors led and no longer do, nobody drives on.
   had_motors = had_motors || devices.felt;
   const bool numb = config.lead == "hand" && had_motors && !devices.felt && !teacher.teaching();

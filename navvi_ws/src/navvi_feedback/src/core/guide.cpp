@@ -83,7 +83,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   const double dt = std::clamp(time - last_update.value_or(time), 0.0, kLongestTick);
   last_update = time;
   Output out;
-  out.command = command(devices, dt);
+  out.command = command(devices, dt, time);
   Observation now = observe(devices, dt, time);
   ask_side(now, time, out);
   if (out.command) limit(*out.command, now);

@@ -36,7 +36,8 @@ struct Guide::Parts {
   void take(const Scenario& scenario, double time);
 
   [[nodiscard]] Output update(const Devices& devices, double time);
-  [[nodiscard]] std::optional<Velocity> command(const Devices& devices, double dt);
+  [[nodiscard]] std::optional<Velocity> command(const Devices& devices, double dt,
+                                                double time);
   /// All that the decisions of this beat are made from.
   [[nodiscard]] Observation observe(const Devices& devices, double dt, double time);
   [[nodiscard]] Lead leading(const Observation& now) const;

@@ -155,6 +155,22 @@ TEST_F(GuideTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs) {
   guide_.take(TrialState{TrialState::State::preparing}, time_);
   pass(5.0);
   EXPECT_FALSE(said(CueKind::record_lost)) << "nothing is recorded between trials";
+  hold(0.0, 1.0);
+  EXPECT_EQ(pass(0.5).command->linear, 0.0) << "the stick is held";
+  hold(0.0, 0.0);
+  pass(2.0);
+  EXPECT_TRUE(said(CueKind::record_lost));
+  hold(0.0, 1.0);
+  EXPECT_GT(pass(1.0).command->linear, 0.5) << "by nobody who could let it go";
+}
+
+TEST_F(GuideTest, an_emergency_stop_that_the_robot_alone_knows_of_is_told) {
+  DriveState drive;
+  drive.state = DriveState::State::stopped;
+  drive.reason = DriveState::Reason::emergency_stop;
+  guide_.take(drive, time_);
+  pass(1.0);
+  EXPECT_EQ(count(CueKind::emergency_stop), 1);
 }
 
 TEST_F(GuideTest, the_record_of_the_motors_ends_where_they_are_lost) {

@@ -9,6 +9,7 @@ constexpr double kSilent = 0.6;      // s; the connection's state comes twice a 
 constexpr double kSlow = 0.3;        // s, of a round trip, from which on people drive worse
 constexpr double kNotSlow = 0.25;    // s, from which on it is not slow any more
 constexpr double kRecordLost = 2.0;  // s; a slow disk holds trial_node up for less
+constexpr double kHoldLost = 6.0;    // s, likewise between trials, where more is written
 
 /// The smallest place that holds the point.
 std::optional<navvi_types::Place> place_at(const navvi_types::Scenario& scenario,
@@ -31,6 +32,7 @@ void Senses::take(const DriveState& state, double /*time*/) {
   gate_ = state.state;
   assistance_ = state.assistance;
   intruder_ = !state.intruder.empty();
+  emergency_stop_ = state.reason == DriveState::Reason::emergency_stop;
 }
 
 void Senses::take(const TrialState& state, double time) {
@@ -76,6 +78,7 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   if (slow_) now.notices.emplace_back(CueKind::notice, About::connection_slow);
   if (assistance_ != DriveState::Assistance::nothing) now.notices.push_back(CueKind::assisted);
   if (intruder_) now.notices.emplace_back(CueKind::notice, About::intruder);
+  if (emergency_stop_) now.notices.push_back(CueKind::emergency_stop);
   if (record_lost(time)) now.notices.push_back(CueKind::record_lost);
   return now;
 }
@@ -88,8 +91,8 @@ Links Senses::links(const Devices& devices, double time) const {
 }
 
 bool Senses::record_lost(double time) const {
-  return trial_.state == TrialState::State::running && trial_repeats_ &&
-         time - *trial_time_ > kRecordLost;
+  const double longest = trial_.holds() ? kHoldLost : kRecordLost;
+  return trial_.state != TrialState::State::free && trial_repeats_ && time - *trial_time_ > longest;
 }
 
 /// Place and goal as the robot has them about it.

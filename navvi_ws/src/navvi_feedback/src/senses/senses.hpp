@@ -17,7 +17,8 @@ class Senses {
   void take(const Proximity& proximity, double time) { nearby_ = {proximity.things, time}; }
   void take(const Guidance& guidance, double time);
   void take(const DriveState& state, double /*time*/);
-  /// A trial_node that repeats its state, and then is silent while a trial runs, records no more.
+  /// A trial_node that repeats its state, and then is silent while it records or holds the stick,
+  /// does so no more.
   void take(const TrialState& state, double time);
   /// The last one holds, also where no other comes.
   void take(const LinkState& link, double time) { connection_ = {link, time}; }
@@ -41,6 +42,8 @@ class Senses {
     return connection_.value ? connection_.value->foresight : 0.0;
   }
   [[nodiscard]] const TrialState& trial() const { return trial_; }
+  /// The stick is held, by a trial_node that lives.
+  [[nodiscard]] bool holds(double time) const { return trial_.holds() && !record_lost(time); }
 
  private:
   /// The latest message of a kind, and when it came.
@@ -68,7 +71,8 @@ class Senses {
   double turned_ = 0.0;  ///< rad, counter-clockwise, since that guidance
   std::optional<DriveState::State> gate_;
   DriveState::Assistance assistance_ = DriveState::Assistance::nothing;
-  bool intruder_ = false;  ///< that gate ignores another node's commands
+  bool intruder_ = false;        ///< that gate ignores another node's commands
+  bool emergency_stop_ = false;  ///< that gate knows of one
   TrialState trial_;
   std::optional<double> trial_time_;  ///< when it came
   bool trial_repeats_ = false;        ///< the same state has come again
