@@ -28,7 +28,7 @@ std::vector<Odometry> OdometryInMap::release() {
         std::find_if(corrections_.begin(), corrections_.end(),
                      [&](const Correction& one) { return one.stamp >= report.stamp; });
     if (correction == corrections_.end() && !corrections_.empty()) {
-      if (waiting_.size() <= kMostWaiting && waiting_.back().stamp - report.stamp <= kLongestWait)
+      if (waiting_.size() <= kMostWaiting && waiting_.back().stamp - report.stamp < kLongestWait)
         break;
       --correction;
     }
