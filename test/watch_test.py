@@ -3,6 +3,7 @@ import itertools
 import os
 import pty
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -214,6 +215,15 @@ def test_each_line_is_spoken_and_the_next_waits_until_it_was(trial, spoken):
     assert all(after - before > 0.45 for before, after in zip(times, times[1:]))
 
 
+def test_lines_go_on_without_speech_where_speech_dispatcher_ends(trial, spoken):
+    watching = Command("watch", trial, "pace:=0", "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{spoken}/socket", SPEECHD_CMD="/nonexistent")
+    assert eventually((spoken / "spoken").exists, 60)
+    os.kill(int((spoken / "pid/speech-dispatcher.pid" if (spoken / "pid").is_dir() else spoken / "pid").read_text()), signal.SIGKILL)
+    lines = watching.wait_until_ended(60).splitlines()
+    assert [line for line in lines if line in LINES] == LINES and lines[-1] == "The trial's record ends here."
+    assert lines.count("speech-dispatcher does not answer; the lines go on without speech.") == 1, lines
+
+
 def test_without_speech_dispatcher_that_is_said(trial, tmp_path):
     code, text = watched(trial, "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{tmp_path}/none", SPEECHD_CMD="/nonexistent")
     assert code == 2 and "speech-dispatcher cannot be used" in text and "speech:=false" in text
@@ -225,6 +235,7 @@ def test_a_running_session_is_found_and_told_to_its_end(session, tmp_path):
     text = watched(TMPDIR=str(tmp_path))[1]
     assert "Follow the path" in text and "Said: " in text, text
     assert "The trial has ended: timeout" in text and text.endswith("The session has ended.\n"), text
+    assert [*tmp_path.glob("session-*/**/roslaunch-*.log")], "the logs of ROS lie with the record"
 
 
 def test_where_no_session_runs_that_is_said(tmp_path):

@@ -177,21 +177,28 @@ class Pacer:
 
 
 class Voice:
-    """speech-dispatcher."""
+    """speech-dispatcher. One that ends while it speaks never says that it is through."""
+    LONGEST = 20.0  # s, of a line
 
     def __init__(self):
         import speechd
         self.client = speechd.SSIPClient("navvi-watch")
         self.ends = (speechd.CallbackType.END, speechd.CallbackType.CANCEL)
-        self.silent = threading.Event()
+        self.silent, self.began = threading.Event(), 0.0
         self.silent.set()
+
+    def free(self):
+        lost = not self.client._conn._communication_thread.is_alive()
+        return self.silent.is_set() or lost or time.monotonic() - self.began > self.LONGEST
 
     def say(self, text):
         self.silent.clear()
+        self.began = time.monotonic()
         self.client.speak(text, callback=lambda *_, **__: self.silent.set(), event_types=self.ends)
 
     def close(self):
-        self.silent.wait(20.0)
+        while not self.free():
+            time.sleep(0.05)
         self.client.close()
 
 
@@ -200,12 +207,16 @@ class Screen:
         self.voice = Voice() if speech else None
 
     def free(self):
-        return self.voice is None or self.voice.silent.is_set()
+        return self.voice is None or self.voice.free()
 
     def show(self, text):
         print(text, flush=True)
-        if self.voice:
-            self.voice.say(text)
+        try:
+            if self.voice:
+                self.voice.say(text)
+        except Exception:  # of many kinds
+            self.voice = None
+            print("speech-dispatcher does not answer; the lines go on without speech.", flush=True)
 
     def close(self):
         if self.voice:
