@@ -35,8 +35,8 @@ def ask(server, method, *words):
 
 
 class NearMaster:
-    def __init__(self, uri):
-        """Of the master at that URI. `uri` is its own."""
+    def __init__(self, uri, at=("127.0.0.1", 0)):
+        """Of the master at that URI. `uri` is its own, `at` its address and port."""
         self.far, self.of_thread = uri, threading.local()
         self.own = ROSMasterHandler(num_workers=1)
         parameters = self.ask("getParam", "/navvi", "/")[2]
@@ -46,11 +46,11 @@ class NearMaster:
         for one in self.waiting:
             threading.Thread(target=self.pass_on, args=(one,), daemon=True).start()
         threading.Thread(target=self.keep_connected, daemon=True).start()
-        server = rosgraph.xmlrpc.ThreadingXMLRPCServer(("127.0.0.1", 0), log_requests=0)
+        server = rosgraph.xmlrpc.ThreadingXMLRPCServer(at, log_requests=0)
         server.register_multicall_functions()
         server.register_instance(self)
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        self.uri = f"http://127.0.0.1:{server.server_address[1]}"
+        self.uri = f"http://{at[0]}:{server.server_address[1]}"
 
     def ask(self, method, *words):
         if not hasattr(self.of_thread, "master"):

@@ -10,6 +10,7 @@ import os
 import re
 import socket
 import subprocess
+import urllib.parse
 import xmlrpc.client
 from pathlib import Path
 
@@ -84,6 +85,15 @@ class Network:
     """Holds a port as long as this process, and those that get `descriptor`, live."""
 
     def __init__(self, address="127.0.0.1"):
+        self.claim()
+        self.uri, self.address = f"http://{address}:{self.port}", address
+        # ROS's own setup files set port 11311 of localhost where nothing is set.
+        if GIVEN and not re.fullmatch(rf"http://(localhost:11311|(localhost|127\.0\.0\.1):{self.port})/?", GIVEN):
+            aside(f"ROS_MASTER_URI={GIVEN} is not used: a session has a master of its own, here {self.uri}; \"roslaunch navvi live.launch\" "
+                  "uses yours.")
+        self.enter()
+
+    def claim(self):
         for self.port in PORTS:
             self.descriptor = claim(self.port)
             if self.descriptor is not None:
@@ -92,12 +102,6 @@ class Network:
             fail(f"no port from {PORTS[0]} to {PORTS[-1]} is free for a master; end sessions that are not needed, \"ss -ltnp\" lists them.")
         atexit.register(remove, lock_file(self.port), self.descriptor)
         self.locks = [self.descriptor]
-        self.uri, self.address = f"http://{address}:{self.port}", address
-        # ROS's own setup files set port 11311 of localhost where nothing is set.
-        if GIVEN and not re.fullmatch(rf"http://(localhost:11311|(localhost|127\.0\.0\.1):{self.port})/?", GIVEN):
-            aside(f"ROS_MASTER_URI={GIVEN} is not used: a session has a master of its own, here {self.uri}; \"roslaunch navvi live.launch\" "
-                  "uses yours.")
-        self.enter()
 
     def enter(self):
         os.environ.update(ROS_IP=self.address, ROS_MASTER_URI=self.uri)
@@ -121,28 +125,47 @@ class FarNetwork(Network):
 
     def __init__(self, robot):
         host, _, port = robot.partition(":")
-        self.port, self.locks = int(port or PORTS[0]), []
-        self.uri = f"http://{host}:{self.port}"
+        port = int(port or PORTS[0])
+        uri = f"http://{host}:{port}"
         try:
-            with socket.create_connection((host, self.port), self.PATIENCE) as link:
+            with socket.create_connection((host, port), self.PATIENCE) as link:
                 self.address = link.getsockname()[0]
-            self.master = xmlrpc.client.ServerProxy(self.uri)
-            self.nodes = {node for names in self.master.getSystemState("/navvi")[2][1] for node in names[1]}
+            self.master = xmlrpc.client.ServerProxy(uri)
+            publishers, subscribers, _ = self.master.getSystemState("/navvi")[2]
+            self.tells_contacts = "/navvi/contacts" in dict(publishers)
+            self.nodes = {node for names in subscribers for node in names[1]}
         except (OSError, xmlrpc.client.Error, xmlrpc.client.expat.ExpatError) as problem:
-            fail(f"no ROS master answers at {host}, port {self.port}: {problem}; on the robot's machine, \"./navvi robot start address:=...\" "
+            fail(f"no ROS master answers at {host}, port {port}: {problem}; on the robot's machine, \"./navvi robot start address:=...\" "
                  "starts one and prints where.", 2)
         if not self.nodes & {"/relay_node", "/sim_node"}:
-            fail(f"the ROS master at {host}, port {self.port} knows no robot's side; \"./navvi robot start\" starts it there.", 2)
-        if taken := self.nodes & {"/feedback_node", "/trial_node"}:
-            fail(f"somebody drives this robot already: {' and '.join(sorted(taken))} run; one person at a time is allowed.", 2)
+            fail(f"the ROS master at {host}, port {port} knows no robot's side; \"./navvi robot start\" starts it there.", 2)
+        if taken := sorted(filter(self.may_run, self.nodes & {"/feedback_node", "/trial_node"})):
+            fail(f"somebody drives this robot already: {' and '.join(taken)} run; one person at a time is allowed. If nobody does, as after a "
+                 "connection that was cut, \"rosnode cleanup\" on the robot's machine lets the next one in.", 2)
+        self.claim()
         from .near_master import NearMaster  # needs ROS
-        self.near = NearMaster(self.uri)
+        self.near = NearMaster(uri, (self.address, self.port))
         self.uri = self.near.uri
         self.enter()
+
+    def may_run(self, node):
+        """Whether it cannot be known that nothing is left of it but its name, as after a connection that was cut; the next of that name gets it."""
+        at = urllib.parse.urlsplit(str(self.master.lookupNode("/navvi", node)[2]))
+        try:
+            socket.create_connection((at.hostname, at.port), self.PATIENCE).close()
+        except (OSError, ValueError) as problem:
+            return not isinstance(problem, ConnectionRefusedError)
+        return True
 
     def clock(self):
         """The topic with the robot's time, that of a simulator or of a real robot."""
         return "/clock" if self.master.getParam("/navvi", "/use_sim_time")[2] is True else "/navvi/clock"
+
+
+def address_of(port):
+    """At which its master listens; on all of them or on none yet, that of this machine alone."""
+    found = re.search(rf"([\d.]+):{port}\s", listeners(port))
+    return found[1] if found and found[1] != "0.0.0.0" else "127.0.0.1"
 
 
 def is_ours(port):

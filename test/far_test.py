@@ -57,7 +57,8 @@ class Session:
         assert eventually(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 300)
 
     def start(self, side, *words, output=None, **more):
-        env = dict(self.env, ROS_IP=side.address)
+        (tmp := self.folder / side.address).mkdir(exist_ok=True)
+        env = dict(self.env, ROS_IP=side.address, TMPDIR=str(tmp))
         to = open(output, "w") if output else more.pop("stdout", subprocess.DEVNULL)
         process = subprocess.Popen([*side.enter, *words], env=env, cwd=ROOT, stdout=to, stderr=subprocess.STDOUT if output else None, **more)
         self.processes.append(process)
@@ -104,6 +105,19 @@ def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(sessi
     assert result["bag"] == "ok" and (trial / "trial.bag").stat().st_size > 1e5, sorted(trial.iterdir())
     assert not (trial / "trial.bag.txt").exists() and not list((session.folder / ".navvi/bags").iterdir()), "it was fetched from there"
     assert subprocess.run(["rosbag", "check", str(trial / "trial.bag")], capture_output=True).returncode == 0
+
+
+def test_a_session_can_be_watched_on_both_machines(session):
+    run = session.start(session.wire.person, "./navvi", "run", f"robot:={session.at}", "operator:=simulated", "rviz:=false", "limit:=120",
+                        f"out:={session.folder}", output=session.folder / "person.txt")
+    assert eventually(lambda: [*session.folder.glob("trial-*")], 200), (session.folder / "person.txt").read_text()
+    told = {side: session.folder / f"watched-{side.address}.txt" for side in (session.wire.person, session.wire.robot)}
+    for side, output in told.items():
+        session.start(side, "./navvi", "watch", output=output)
+    assert run.wait(200) == 0
+    for output in told.values():
+        assert eventually(lambda: "The trial has ended: reached" in output.read_text(), 20), output.read_text()
+        assert "Said: " in output.read_text()
 
 
 def test_a_clock_of_the_person_that_is_wrong_is_set_and_drifts_changes_nothing(session, tmp_path):

@@ -7,8 +7,9 @@ from xmlrpc.server import SimpleXMLRPCServer
 import pytest
 
 from sessions import eventually
-from navvi_cli import near_master
+from navvi_cli import near_master, network
 from navvi_cli.near_master import NearMaster
+from navvi_cli.say import Failure
 
 
 @pytest.fixture
@@ -96,3 +97,43 @@ def test_a_master_and_a_node_that_answer_nonsense_end_nothing(monkeypatch, node)
     with pytest.raises(Fault, match="cannot read the answer to lookupNode"):
         own.lookupNode("/test", "/talker")
     nonsense.shutdown()
+
+
+@pytest.fixture
+def robot(master, monkeypatch, tmp_path):
+    """A master that knows a robot's side, what begins a session of it, and what registers another node there."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    for name in "ROS_MASTER_URI", "ROS_IP":  # which are set back afterwards
+        monkeypatch.setenv(name, "")
+    far, known = ServerProxy(master["ROS_MASTER_URI"]), []
+
+    def register(name, uri, topic="/navvi/order", call="registerSubscriber"):
+        getattr(far, call)(name, topic, "*", uri)
+        known.append((name, topic, uri, call))
+    register("/sim_node", "http://127.0.0.1:1/")
+    yield lambda: network.FarNetwork(master["ROS_MASTER_URI"].removeprefix("http://")), register
+    for name, topic, uri, call in known:
+        getattr(far, f"un{call}")(name, topic, uri)
+
+
+def test_names_that_a_cut_connection_left_behind_keep_nobody_out_and_a_person_who_drives_does(robot, node):
+    begin, register = robot
+    register("/feedback_node", "http://127.0.0.1:1/")
+    register("/trial_node", "http://127.0.0.1:1/")
+    begin()
+    register("/trial_node", node[0])
+    with pytest.raises(Failure, match="somebody drives this robot already: /trial_node run;.*rosnode cleanup"):
+        begin()
+
+
+def test_whether_the_robot_tells_of_contacts_is_known(robot):
+    begin, register = robot
+    assert not begin().tells_contacts
+    register("/perception_node", "http://127.0.0.1:1/", "/navvi/contacts", "registerPublisher")
+    assert begin().tells_contacts
+
+
+def test_a_session_of_a_robot_elsewhere_is_found_by_who_watches_it(robot):
+    session = robot[0]()
+    assert network.running_sessions() == [session.port]
+    assert ServerProxy(f"http://{network.address_of(session.port)}:{session.port}").lookupNode("/test", "/sim_node")[2] == "http://127.0.0.1:1/"

@@ -12,6 +12,7 @@ import importlib.util
 import os
 import re
 import time
+from contextlib import suppress
 from pathlib import Path
 
 from navvi_cli import trials, workspace
@@ -30,7 +31,7 @@ PERSON = ["robot:=HOST: drive what \"./navvi robot start\" runs on another machi
           "PART/NAME:=VALUE: any parameter of a node, such as feedback/speaker/rate:=300; \"./navvi parameters feedback\" lists them."]
 DRIVE = {
     "pad": "press start; then the left stick of the pad drives, up for forward.",
-    "keyboard": "press enter; then the arrow keys drive, with Shift slowly, while the picture or NavVI's small window has the focus.",
+    "keyboard": "press enter; then the arrow keys drive, with Shift slowly, while NavVI's small window or the picture (but for vision:=paper) has the focus.",
     "simulated": "nothing to do; a simulated person drives.",
 }
 ASK = {
@@ -87,12 +88,15 @@ def far_session(given):
     network = FarNetwork(where)
     words["patience"] = "900"  # over a slow connection nodes take their time to meet
     words["clock"] = network.clock()
+    if not network.tells_contacts:  # it has no bumper
+        words.setdefault("contacts", "unknown")
     try:
         return drive(launch_file, words, network, f"the robot at {where}")
     finally:
-        if not network.near.finish(3.0):
-            say("the robot's machine is told that this session has ended; Ctrl-C does not wait for that.")
-            network.near.finish(60.0)
+        with suppress(KeyboardInterrupt):
+            if not network.near.finish(3.0):
+                say("the robot's machine is told that this session has ended; Ctrl-C does not wait for that.")
+                network.near.finish(60.0)
 
 
 HERE = {"sensing": "truth", "world": "warehouse"}

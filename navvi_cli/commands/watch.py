@@ -23,7 +23,7 @@ import os
 import sys
 
 from navvi_cli.arguments import Words, completions, trial_in, trials_that_hold
-from navvi_cli.network import listeners, running_sessions
+from navvi_cli.network import address_of, listeners, running_sessions
 from navvi_cli.places import DEVEL, share
 from navvi_cli.say import fail
 from navvi_cli.workspace import build, enter, is_current
@@ -51,7 +51,8 @@ def run(args):
         build("navvi_msgs_generate_messages_py")
     enter()
     if port:
-        os.environ.update(ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1")
+        address = address_of(port)
+        os.environ.update(ROS_MASTER_URI=f"http://{address}:{port}", ROS_IP=address)
         os.environ.pop("ROS_HOSTNAME", None)
     program = str(share("navvi_study") / "python" / "navvi_study" / "watch.py")
     slow = not trial or sys.stdout.isatty() or words.get("speech") == "true"
