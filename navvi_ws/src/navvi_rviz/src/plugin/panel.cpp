@@ -250,7 +250,8 @@ void Panel::show_camera(QMainWindow& main) {
 
 bool Panel::eventFilter(QObject* target, QEvent* event) {
   const bool closes = target == window() && event->type() == QEvent::Close;
-  if (!closes || !ros::ok() || !reader_->status().trial_runs())
+  // In a replay nobody hears the question.
+  if (!closes || !ros::ok() || !reader_->status().trial_runs() || !questions_.getNumSubscribers())
     return rviz::Panel::eventFilter(target, event);
   ask("end");
   event->ignore();
@@ -335,10 +336,13 @@ void Panel::refresh() {
   set_words(labels_.instruction, QString::fromStdString(shown.instruction),
             QAccessible::NameChanged);
   set_words(labels_.distance, QString::fromStdString(shown.distance), QAccessible::NameChanged);
-  set_words(labels_.speed, number(shown.speed, 1, "m/s"), QAccessible::NameChanged);
+  set_words(labels_.speed, shown.speed ? number(*shown.speed, 1, "m/s") : QString(),
+            QAccessible::NameChanged);
   const int seconds = static_cast<int>(shown.clock.value_or(0.0));
   set_words(labels_.clock,
-            QString("%1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0')),
+            shown.clock
+                ? QString("%1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0'))
+                : QString(),
             QAccessible::NameChanged);
 }
 

@@ -26,11 +26,12 @@ Reader::Reader() {
                                   [this](const auto& cue) { status_.take(cue, now()); }));
   keep(subscribe<navvi_msgs::Cue>(node_, "navvi/order", 1, from_msg,
                                   [this](const auto& order) { status_.take_order(order); }));
-  keep(subscribe<navvi_msgs::Guidance>(node_, "navvi/guidance", 1, from_msg, take));
+  keep(subscribe<navvi_msgs::Guidance>(node_, "navvi/guidance", 1, from_msg,
+                                       [this](const auto& one) { status_.take(one, now()); }));
   keep(subscribe<navvi_msgs::DriveState>(node_, "navvi/drive_state", 1, from_msg, take));
   keep(subscribe<navvi_msgs::TrialState>(node_, "navvi/trial_state", 1, from_msg, take));
   keep(subscribe<nav_msgs::Odometry>(node_, "odom", 1, from_msg, [this](const auto& odometry) {
-    status_.take_speed(odometry.velocity.linear);
+    status_.take_speed(odometry.velocity.linear, now());
   }));
   keep(subscribe<navvi_msgs::Scenario>(node_, "navvi/scenario", 1, from_msg,
                                        [this](const auto& scenario) { goal_ = scenario.goal; }));

@@ -1,7 +1,6 @@
 #include "status/status.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <navvi_config/reader.hpp>
 #include <navvi_types/spoken.hpp>
 #include <set>
@@ -12,6 +11,7 @@ namespace {
 
 using navvi_types::Guidance;
 
+constexpr double kFresh = 1.0;     // s, after which a robot that fell silent has no speed
 constexpr double kNoSound = 10.0;  // s, for which "no sound" hides the way
 constexpr double kRead = 4.0;      // s, that what was said stays to be read
 
@@ -111,11 +111,12 @@ void Status::take(const navvi_types::TrialState& state) {
   ended_.reset();
 }
 
-void Status::take(const Guidance& guidance) {
+void Status::take(const Guidance& guidance, double time) {
   if (guidance_ && guidance_->state == Guidance::State::arrived &&
       guidance.state != Guidance::State::arrived)
     last_.reset();
   guidance_ = guidance;
+  guided_ = time;
 }
 
 void Status::take_event(const std::string& type, double ros_time) {
@@ -164,9 +165,9 @@ Shown Status::shown(double time, double ros_time) const {
   choose_banner(time, shown);
   shown.instruction = instruction(time);
   shown.menu = menu_;
-  if (guidance_ && guidance_->leads() && !guidance_->ends_short)
+  if (guidance_ && guidance_->leads() && !guidance_->ends_short && time - guided_ < kFresh)
     shown.distance = words_.to_go(guidance_->goal_distance);
-  shown.speed = std::abs(speed_);
+  if (speed_ && time - speed_->second < kFresh) shown.speed = speed_->first;
   if (begun_) shown.clock = std::max(0.0, ended_.value_or(ros_time) - *begun_);
   shown.sound = !silent_;
   return shown;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <navvi_types/cue_event.hpp>
@@ -10,6 +11,7 @@
 #include <navvi_types/trial.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace navvi_rviz::status {
 
@@ -48,7 +50,7 @@ struct Shown {
   std::string instruction = {};      ///< what the guide said last; of the way: as it is now
   std::string menu = {};             ///< what the spoken menu offers; empty while it is closed
   std::string distance = {};         ///< left to the goal along the path; empty: not known
-  double speed = 0.0;                ///< m/s, >= 0
+  std::optional<double> speed = {};  ///< m/s, >= 0; nullopt: not known
   std::optional<double> clock = {};  ///< s, since the trial began
   bool sound = true;                 ///< false: nothing can be heard
 };
@@ -60,12 +62,12 @@ class Status {
   void use(const Words& words) { words_ = words; }
   [[nodiscard]] const Words& words() const { return words_; }
   void take(const navvi_types::CueEvent& cue, double time);
-  void take(const navvi_types::Guidance& guidance);
+  void take(const navvi_types::Guidance& guidance, double time);
   /// The latest.
   [[nodiscard]] const std::optional<navvi_types::Guidance>& guidance() const { return guidance_; }
   void take(const navvi_types::DriveState& state) { gate_ = state.state; }
   void take(const navvi_types::TrialState& state);
-  void take_speed(double speed) { speed_ = speed; }
+  void take_speed(double speed, double time) { speed_ = {std::abs(speed), time}; }
   [[nodiscard]] bool trial_runs() const {
     return trial_ == navvi_types::TrialState::State::running;
   }
@@ -107,9 +109,10 @@ class Status {
   std::optional<Said> last_;
   std::optional<Order> order_;  ///< nullopt: none has come yet
   std::string menu_;
-  double speed_ = 0.0;
-  std::optional<double> begun_, ended_;  ///< s, ROS time
-  std::optional<double> silent_;         ///< since when nothing can be heard
+  std::optional<std::pair<double, double>> speed_;  ///< m/s, and when it came
+  double guided_ = 0.0;                             ///< when the guidance came
+  std::optional<double> begun_, ended_;             ///< s, ROS time
+  std::optional<double> silent_;                    ///< since when nothing can be heard
 };
 
 /// Keeps each banner, and each while without one, for 0.35 s: what is large and bright must not

@@ -58,13 +58,23 @@ TEST(Status, rounds_the_distance_as_the_voice_does_and_shows_none_to_a_goal_that
   Status status = speaking();
   Guidance guidance = in(Guidance::State::following);
   guidance.goal_distance = 1.4;
-  status.take(guidance);
+  status.take(guidance, 1.0);
   EXPECT_EQ(status.shown(1.0, 0.0).distance, "1.5 meters to go");
   status.use(Words(NAVVI_PHRASES "/es.yaml", "feet"));
   EXPECT_EQ(status.shown(1.0, 0.0).distance, "5 pies hasta la meta");
   guidance.ends_short = true;
-  status.take(guidance);
+  status.take(guidance, 1.0);
   EXPECT_EQ(status.shown(1.0, 0.0).distance, "");
+}
+
+TEST(Status, of_a_robot_that_fell_silent_neither_speed_nor_distance_is_shown) {
+  Status status = speaking();
+  status.take_speed(-0.4, 5.0);
+  status.take(in(Guidance::State::following), 5.0);
+  EXPECT_EQ(status.shown(5.5, 0.0).speed, 0.4);
+  EXPECT_NE(status.shown(5.5, 0.0).distance, "");
+  EXPECT_FALSE(status.shown(6.5, 0.0).speed);
+  EXPECT_EQ(status.shown(6.5, 0.0).distance, "");
 }
 
 TEST(Status, shows_the_order_but_for_the_way_which_the_plate_shows) {
@@ -90,7 +100,7 @@ TEST(Status, an_order_that_has_ended_is_shown_no_more) {
   Status status = speaking();
   CueEvent order = said(CueKind::blocked, "wait, worker in the way");
   status.take_order(order);
-  status.take(in(Guidance::State::following));
+  status.take(in(Guidance::State::following), 0.0);
   EXPECT_EQ(status.shown(100.0, 0.0).banner, "wait, worker in the way");
   order.stage = CueStage::ended;
   status.take_order(order);
@@ -114,7 +124,7 @@ TEST(Status, speaks_the_language_of_the_session_and_names_its_keys) {
 
 TEST(Status, missing_sound_is_shown_by_itself) {
   Status status = speaking();
-  status.take(in(Guidance::State::following));
+  status.take(in(Guidance::State::following), 0.0);
   status.take_device("navvi/audio", "missing", 0.0);
   EXPECT_EQ(status.shown(0.0, 0.0).banner, "no sound");
   status.take_device("navvi/audio", "missing", 10.0);
