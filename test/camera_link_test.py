@@ -50,6 +50,22 @@ def test_a_picture_comes_over_as_it_is_and_one_that_stands_is_darkened(master):
         assert (colours == 255).all(axis=2).sum() > 10, "its age in white"
 
 
+def test_a_camera_of_this_machine_that_died_is_darkened(master):
+    os.environ.update(master)
+    import rospy
+    from sensor_msgs.msg import Image
+    rospy.init_node("camera_link_test", disable_signals=True)
+    camera, shown = rospy.Publisher("/raw", Image, queue_size=1), []
+    rospy.Subscriber("/watched", Image, shown.append)
+    image = Image(width=64, height=48, encoding="mono8", step=64, data=bytes([200]) * 64 * 48)
+    with Programs(master) as programs:
+        programs.start(PROGRAM, "watch", "image/raw:=/raw", "image:=/watched")
+        assert eventually(lambda: camera.publish(image) or len(shown) >= 3, 30), "no picture came"
+        assert (shown[-1].encoding, shown[-1].data) == ("mono8", image.data), "as it is"
+        assert eventually(lambda: shown[-1].encoding == "rgb8", 10)
+        assert shown[-1].data[0] == pytest.approx(80, abs=4), "dark at the border"
+
+
 def test_a_wrong_word_ends_in_a_sentence():
     run = subprocess.run([PROGRAM], capture_output=True, text=True)
     assert run.returncode == 1 and "allowed is" in run.stderr
