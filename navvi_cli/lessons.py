@@ -38,7 +38,7 @@ def give(lesson, given, needed="", sentence=""):
     with tempfile.TemporaryDirectory() as folder:
         if out:
             make(out)
-        log = Path(f"{kept}.log") if kept else Path(folder) / "log"
+        log = Path(f"{kept}.log") if kept else Path(folder) / "lesson.log"
         say(f"{lesson} begins in some seconds, with the {words['operator']}; what to press is spoken. Ctrl-C in this terminal ends it, too.")
         launch = Launch(launch_file, words, log, network)
         if not launch.run() and not launch.interrupted:

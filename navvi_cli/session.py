@@ -150,6 +150,8 @@ class Launch:
         os.umask(0o077)  # what a session leaves is its owner's alone
         self.interrupted, self.log = False, Log(log)
         env = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1", PYTHONUNBUFFERED="1", LD_PRELOAD=network.preload())
+        if str(log) != os.devnull:  # beside it: what nodes log tells of the person
+            env["ROS_LOG_DIR"] = str(log).removesuffix(".log")
         # Programs end with the roslaunch that has this number, however it ends (launcher.hpp). It holds the port's lock, too, and
         # those of whoever began this session and may be gone before it.
         locks = [*network.locks, *map(int, os.environ.get("NAVVI_LOCKS", "").split())]
