@@ -11,7 +11,7 @@ import types
 import pytest
 
 from conftest import free_port
-from sessions import ROOT
+from sessions import ROOT, eventually
 from navvi_cli import arguments, network, parser, session, trials, worlds
 from navvi_cli.commands import check, replay, robot, run, show, tutorial
 from navvi_cli.main import command_names, parser_of
@@ -323,6 +323,29 @@ def test_what_ended_a_session_is_remembered(tmp_path):
     assert log.fatal == "there is no map"
 
 
+def test_what_nodes_log_lies_beside_the_sessions_log(tmp_path, monkeypatch):
+    """There it is deleted with all else of a person."""
+    (tmp_path / "roslaunch").write_text("#!/bin/sh\necho logs in $ROS_LOG_DIR\n")
+    (tmp_path / "roslaunch").chmod(0o755)
+    monkeypatch.setattr(session, "SHELL", tmp_path / "run")
+    nothing = types.SimpleNamespace(path="a.launch", preload=lambda: "", locks=[])
+    assert session.Launch(nothing, {}, tmp_path / "session-1.log", nothing).run()
+    assert (tmp_path / "session-1.log").read_text() == f"logs in {tmp_path}/session-1\n"
+
+
+def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_goodbye(tmp_path, monkeypatch):
+    def finish(seconds):
+        if seconds > 3.0:
+            raise KeyboardInterrupt
+    driven = []
+    monkeypatch.setattr(run, "FarNetwork", lambda _: types.SimpleNamespace(clock=lambda: "/navvi/clock", tells_contacts=False,
+                                                                           near=types.SimpleNamespace(finish=finish)))
+    monkeypatch.setattr(run, "prepare", lambda *_: None)
+    monkeypatch.setattr(run, "drive", lambda _, words, *__: driven.append(words) or 0)
+    assert run.far_session(["robot:=r", "operator:=simulated", "rviz:=false", f"out:={tmp_path}"]) == 0
+    assert driven[0]["contacts"] == "unknown", "nothing tells of them there"
+
+
 # --- the end of a session, and what its record says
 
 ROW = {"trial": "trial-1", "world": "busy", "seed": "3", "result": "reached", "reason": "goal_reached", "elapsed_s": "28.550", "path_length_m": "31.2",
@@ -441,11 +464,14 @@ def test_a_replay_begins_some_seconds_before_the_event_that_is_named(tmp_path):
 
 
 def test_a_replay_is_paused_and_stepped_by_keys(capsys):
-    calls = []
-    keys = replay.Keys(1000.0, calls.append)
+    calls, answers = [], True
+    keys = replay.Keys(1000.0, lambda pause: calls.append(pause) or answers)
     keys.read(["p\n", "p\n", "s\n", "p\n", "\n", "what\n"])
     assert calls == [True, False, False, True, False]
     assert "is paused" in capsys.readouterr().out
+    answers = False
+    keys.read(["p\n", "s\n"])
+    assert not keys.paused and capsys.readouterr().out == "", "of what the player did not do nothing is said"
 
 
 def test_points_and_tables_are_for_programs(capsys):
@@ -454,7 +480,48 @@ def test_points_and_tables_are_for_programs(capsys):
         ["what", "value"], ["6 \"x\"", "1"], ["start", "1.5,2,0"], ["path", "1.0,2.0 3,4"], ["none", ""]]
 
 
+def test_paths_with_blanks_and_apostrophes_reach_the_player_whole(tmp_path):
+    import roslaunch.config
+    import roslaunch.node_args
+    bag = tmp_path / "Anna's trial/trial.bag"
+    os.environ.setdefault("ROS_MASTER_URI", "http://127.0.0.1:1")
+    config = roslaunch.config.load_config_default([(str(ROOT / "launch/replay.launch"), [f"bag:={bag}"])], 11311, verbose=False)
+    for node in config.nodes:
+        if node.name in ("player", "scene_player"):
+            assert str(bag) in roslaunch.node_args.create_local_process_args(node, config.machines[""]), node.name
+
+
 # --- what the shell does
+
+def test_a_stop_ends_what_runs_as_root_too(tmp_path):
+    """Of another user's processes only sudo can end it."""
+    (tmp_path / "sudo").write_text(f"#!/bin/sh\nprintf '%s\\n' \"$*\" >> {tmp_path}/calls\nshift\nexec \"$@\"\n")
+    (tmp_path / "sudo").chmod(0o755)
+    script = (f"set -euo pipefail; PATH={tmp_path}:$PATH; source {ROOT}/navvi_cli/shell/say.bash; stopped_by_signals; percent() {{ echo 0; }}\n"
+              f"install() {{ local as_root=(sudo -n); with_progress installing {tmp_path}/log percent sh -c 'echo begun; sleep 60'; }}\ninstall\n")
+    with subprocess.Popen(["bash", "-c", script], stderr=subprocess.DEVNULL) as shell:
+        assert eventually(lambda: (tmp_path / "log").exists() and (tmp_path / "log").read_text(), 20)
+        shell.terminate()
+        assert shell.wait(20) == 130
+    assert re.fullmatch(r"-n .*kill -TERM -- -\d+\n", (tmp_path / "calls").read_text())
+
+
+@pytest.mark.parametrize("end, code", [("true", 0), ("kill -9 $$", 1)])
+def test_a_run_of_the_tests_that_was_killed_has_not_passed(end, code, tmp_path):
+    """Though the results of the run before are there."""
+    passed = "<testsuite><testcase name='a'/></testsuite>"
+    for path, text in {"ws/build/test_results.xml": passed, "test/find_tests.py": "", "test/count_results.py": (ROOT / "test/count_results.py").read_text(),
+                       "bin/ctest": "#!/bin/sh\necho Total Tests: 1\n",
+                       "test/run_tests.py": f"import os, sys\nopen(os.path.dirname(sys.argv[1]) + '/test_results/a.xml', 'w').write(\"{passed}\")\n"
+                                            f"if '{end}' == 'true': open(sys.argv[1], 'w').write(\"{passed}\")\nelse: os.kill(os.getpid(), 9)\n"}.items():
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text(text)
+    (tmp_path / "bin/ctest").chmod(0o755)
+    script = (f"set -euo pipefail; PATH={tmp_path}/bin:$PATH root={tmp_path} workspace={tmp_path}/ws; source {ROOT}/navvi_cli/shell/say.bash\n"
+              f"source {ROOT}/navvi_cli/shell/tests.bash; install_packages() {{ true; }}; build_workspace() {{ true; }}; tests quick\n")
+    done = subprocess.run(["bash", "-c", script], capture_output=True, text=True)
+    assert done.returncode == code, done.stdout + done.stderr
+
 
 @pytest.mark.parametrize("steps, answer", [(0, "up to date"), (1, "to build"), (20000, "to build")])
 def test_however_much_is_to_build_it_is_seen(steps, answer, tmp_path):

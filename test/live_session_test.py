@@ -289,6 +289,8 @@ def test_a_recorded_trial_plays_again(session, trial, tmp_path):
         watcher.wait(20)
     assert replay.process.returncode == 0, said[-2000:]
     assert "The voice is en, at 220 words a minute and pitch 55." in (trial / "replay.log").read_text()
+    beyond = navvi("replay", trial, "rviz:=false", "skip:=9999")
+    assert beyond.returncode == 2 and "skip:=9999 leaves nothing to replay; the bag has" in beyond.stderr, beyond.stderr
     # The whole picture, and in it the robot where it was.
     with rosbag.Bag(str(seen)) as bag:
         assert {topic for topic, _, _ in bag.read_messages()} == set(PICTURE)

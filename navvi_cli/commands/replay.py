@@ -54,6 +54,8 @@ def run(args):
         fail("this trial cannot be replayed; see above. rosbag reindex may mend a bag that was cut off.")
     if onset is not None:
         words["skip"] = f"{skip_of(args.trial, onset):.2f}"
+    if float(words.get("skip", 0)) >= (length := length_of(args.trial)):
+        fail(f"skip:={words['skip']} leaves nothing to replay; the bag has {length:.0f} s.", 2)
     network = Network()
     say(f"replaying {args.trial}; Ctrl-C stops it. For ROS tools, in a second terminal: {network.second_terminal()}")
     log = args.trial / "replay.log" if os.access(args.trial, os.W_OK) else "/dev/null"
@@ -94,6 +96,13 @@ def skip_of(trial, onset):
         return max(0.0, start + onset - bag.get_start_time())
 
 
+def length_of(trial):
+    """s."""
+    import rosbag
+    with rosbag.Bag(str(trial / "trial.bag")) as bag:
+        return bag.get_end_time() - bag.get_start_time()
+
+
 class Keys:
     """Pause and step of the player, by lines of the terminal."""
 
@@ -107,26 +116,29 @@ class Keys:
 
     def obey(self, key):
         if key == "p":
-            self.paused = not self.paused
-            self.pause(self.paused)
-            say("the replay is paused." if self.paused else "the replay goes on.")
+            if self.pause(not self.paused):
+                self.paused = not self.paused
+                say("the replay is paused." if self.paused else "the replay goes on.")
         elif key == "s":
-            self.pause(False)
+            self.paused = not self.pause(False) and self.paused
             time.sleep(self.second)
-            self.pause(True)
-            self.paused = True
-            say("a second on; the replay is paused.")
+            if self.pause(True):
+                self.paused = True
+                say("a second on; the replay is paused.")
         elif key:
             say(KEYS + ".")
 
     @staticmethod
     def _call(paused):
+        """Whether the player did so."""
         import rospy
         from std_srvs.srv import SetBool
         try:
             rospy.ServiceProxy("/player/pause_playback", SetBool)(paused)
         except (rospy.ServiceException, rospy.ROSException, OSError) as problem:
             say(f"the player does not answer: {problem}.")
+            return False
+        return True
 
 
 def recorded(trial):

@@ -13,7 +13,8 @@ fail() {
 job="" sleeper=""
 stopped() {
   [[ -z $sleeper ]] || kill "$sleeper" 2>/dev/null || true
-  [[ -z $job ]] || kill -TERM -- "-$job" 2>/dev/null || true
+  # As root where that works: as_root is install_packages's.
+  [[ -z $job ]] || "${as_root[@]+"${as_root[@]}"}" bash -c "kill -TERM -- -$job" 2>/dev/null || true
   echo "navvi: stopped by ${1:-Ctrl-C}, before it was done. The same command goes on from here." >&2
   exit 130
 }

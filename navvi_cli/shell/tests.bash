@@ -18,7 +18,7 @@ tests() {  # TIER [FILTER]
   else
     build_workspace all tests
   fi
-  rm -rf "$results"
+  rm -rf "$results" "$results.xml"
   mkdir -p "$results"
   export ROS_IP=127.0.0.1
   unset ROS_HOSTNAME
@@ -85,7 +85,7 @@ sanitized_tests() {
   [[ -n $filter ]] || targets+=(odr_check)
   build_workspace --asan "${targets[@]}"
   cd "$workspace/build_asan"
-  rm -rf "$results"
+  rm -rf "$results" "$results.xml"
   # Libraries that are not ours keep memory to the end of the program.
   export ASAN_OPTIONS=detect_leaks=0:detect_stack_use_after_return=1:strict_string_checks=1
   export UBSAN_OPTIONS=print_stacktrace=1
