@@ -25,9 +25,5 @@ def program(package, name):
     return DEVEL / "lib" / package / name
 
 
-def script(package, name):
-    return WORKSPACE / "src" / package / "scripts" / name if WORKSPACE else program(package, name)
-
-
 # What the packages have in Python is imported as it is.
 sys.path[1:1] = [str(share(package) / "python") for package in ("navvi_people", "navvi_study")]
