@@ -46,7 +46,7 @@ class Start:
 
     def arguments(parser):
         add_words(parser, "robot_side.launch", "address:=ADDRESS of this machine, at which it listens; 127.0.0.1: on this machine alone.",
-                  "world:=NAME: the simulator is the robot; its arguments are those of \"./navvi run\".")
+                  "world:=NAME: the simulator is the robot, with the arguments of sim_side.launch.")
 
     def run(args):
         simulated = any(word.startswith("world:=") for word in args.words)

@@ -10,7 +10,7 @@ out, select ends the tutorial; on the keyboard space, page down and F8.
 How each step went (tries, seconds, passed) is in tutorial.csv in the folder
 of the trial to the goal, and told in words at the end.
 
-It takes the arguments of "./navvi run"; world:= for another world.
+It takes the arguments of "./navvi run" but robot:=; world:= for another world.
 
 Exit codes
 0: the goal was reached. 1: it was not. 2: a wrong argument, nothing started.
