@@ -37,7 +37,7 @@ RUNS = {"K1": ("world:=busy", "sim/rate:=10"), "K2": ("world:=busy",), "K6": ("w
 VALGRIND = "valgrind --leak-check=full --errors-for-leak-kinds=definite --log-file={}/%p.valgrind"
 CHANGES = {  # of lines of launch files
     "K5": [(r'(<node name="sim_node".*>)', r'\1<remap from="navvi/obstacles" to="true_obstacles"/>')],
-    "K7": [(r'(<node name="(?:sim|trial)_node" )', r'\1launch-prefix="VALGRIND" '), (r'(scripts/respawned)"', r'\1 VALGRIND"'),
+    "K7": [(r'(<node name="(?:sim|trial)_node" )', r'\1launch-prefix="VALGRIND" '), (r'(scripts/respawned&quot;)"', r'\1 VALGRIND"'),
            (r'(<node if.*name="operator_node" )', r'\1launch-prefix="VALGRIND" ')]}
 KILLED = {"/feedback_node": "/navvi/command", "/nav_node": "/navvi/guidance"}  # in turn, and what tells that it is back
 PAUSE = 45.0  # s between two kills; more than 5 of one node within 60 s end a session
