@@ -113,7 +113,7 @@ def test_a_session_can_be_watched_on_both_machines(session):
     assert eventually(lambda: [*session.folder.glob("trial-*")], 200), (session.folder / "person.txt").read_text()
     told = {side: session.folder / f"watched-{side.address}.txt" for side in (session.wire.person, session.wire.robot)}
     for side, output in told.items():
-        session.start(side, "./navvi", "watch", output=output)
+        session.start(side, "./navvi", "watch", "pace:=0", output=output)
     assert run.wait(200) == 0
     for output in told.values():
         assert eventually(lambda: "The trial has ended: reached" in output.read_text(), 20), output.read_text()
