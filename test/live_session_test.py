@@ -20,7 +20,7 @@ from octomap_msgs.msg import Octomap
 
 import hearing
 from display import Display
-from sessions import DARK, ROOT, WORLD, Command, Session, rows_of, sound, summary
+from sessions import DARK, ROOT, WORLD, Command, Session, navvi, rows_of, sound, summary
 
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/odom", "/octomap_binary", "/occupied_cells_vis_array", "/navvi/scene",
