@@ -480,12 +480,25 @@ def test_points_and_tables_are_for_programs(capsys):
         ["what", "value"], ["6 \"x\"", "1"], ["start", "1.5,2,0"], ["path", "1.0,2.0 3,4"], ["none", ""]]
 
 
-def test_paths_with_blanks_and_apostrophes_reach_the_player_whole(tmp_path):
+def launch_of(name, *words):
+    """What roslaunch makes of a launch file."""
     import roslaunch.config
+    os.environ.setdefault("ROS_MASTER_URI", "http://127.0.0.1:1")
+    return roslaunch.config.load_config_default([(str(ROOT / "launch" / name), list(words))], 11311, verbose=False)
+
+
+@pytest.mark.parametrize("name, word", [("live.launch", "operator:=simulated"), ("robot.launch", "rviz:=false"), ("replay.launch", "bag:=/b"),
+                                        ("lesson.launch", "speech:=false")])
+def test_each_node_with_parameters_begins_without_those_of_a_last_session(name, word):
+    config = launch_of(name, word)
+    nodes = {f"{node.namespace}{node.name}/" for node in config.nodes if node.name.endswith(("_node", "cue_player"))}
+    assert nodes and nodes == set(config.clear_params)
+
+
+def test_paths_with_blanks_and_apostrophes_reach_the_player_whole(tmp_path):
     import roslaunch.node_args
     bag = tmp_path / "Anna's trial/trial.bag"
-    os.environ.setdefault("ROS_MASTER_URI", "http://127.0.0.1:1")
-    config = roslaunch.config.load_config_default([(str(ROOT / "launch/replay.launch"), [f"bag:={bag}"])], 11311, verbose=False)
+    config = launch_of("replay.launch", f"bag:={bag}")
     for node in config.nodes:
         if node.name in ("player", "scene_player"):
             assert str(bag) in roslaunch.node_args.create_local_process_args(node, config.machines[""]), node.name

@@ -30,7 +30,7 @@ from navvi_cli.workspace import build, enter, shell, show
 from navvi_cli.worlds import check_name
 
 
-ALONE = ("build/build_bench", "people/guidance_bench")  # only where their own name is given: one takes an hour, one needs a folder
+ALONE = ("build/build_bench", "people/guidance_bench")  # only where their own name is given: one builds a clone, one needs a folder
 # Programs that a script runs, besides those of a session.
 NEEDS = {"study/paper_bench": ["trials_bench"], "rviz/picture_bench": ["navvi_rviz"]}
 
@@ -53,9 +53,9 @@ def arguments(parser):
 
 def run(args):
     known = benchmarks()
-    chosen = {name: path for name, path in known.items() if args.filter in name and (name not in ALONE or args.filter and args.filter in path.stem)}
+    chosen = {name: path for name, path in known.items() if args.filter in name and name not in ALONE}
     # That whose own name it is, not all others of its package.
-    chosen = {name: path for name, path in chosen.items() if path.stem == f"{args.filter}_bench"} or chosen
+    chosen = {name: path for name, path in known.items() if path.stem == f"{args.filter}_bench"} or chosen
     if not chosen:
         fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
     for word in args.words:

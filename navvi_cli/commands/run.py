@@ -31,7 +31,7 @@ PERSON = ["robot:=HOST: drive what \"./navvi robot start\" runs on another machi
           "PART/NAME:=VALUE: any parameter of a node, such as feedback/speaker/rate:=300; \"./navvi parameters feedback\" lists them."]
 DRIVE = {
     "pad": "press start; then the left stick of the pad drives, up for forward.",
-    "keyboard": "press enter; then the arrow keys drive, with Shift slowly, while NavVI's small window or the picture (but for vision:=paper) has the focus.",
+    "keyboard": "press enter; then the arrow keys drive, with Shift slowly, while NavVI's small window or the picture (not of paper) has the focus.",
     "simulated": "nothing to do; a simulated person drives.",
 }
 ASK = {
