@@ -36,7 +36,7 @@ def test_the_glossary_is_understood_and_ended_at_will(env, tmp_path):
     begin = tmp_path / "begin.wav"
     subprocess.run(["sox", "--ignore-length", str(tmp_path / "sound.wav"), str(begin), "trim", "0", "20"], check=True)
     heard = " ".join(" ".join(words) for _, words in hearing.transcribe(begin, told=True))
-    for words in "here is each signal", "arrow down for the next one", "on the left":
+    for words in "here is each signal", "to hear this one again", "on the left":
         assert words in heard, heard
 
 
@@ -66,7 +66,7 @@ def test_the_tutorial_is_passed_by_doing_and_practises_what_went_wrong(request, 
     lines, kinds = give(env, tmp_path, "tutorial", "live.launch", f"operator:={hands}", "world:=training", "start:=-6.5,-5,1.57", "goal:=0.2,-1",
                         "speech:=false", "rviz:=false", f"out:={tmp_path}", "once:=false", "limit:=300",
                         f"feedback_parameters:={{listener: topic, record: {record}}}")
-    rows = rows_of(record)
+    rows = [row for row in rows_of(record) if row["step"] != "by_sound"]  # which is taught where there is a sound device
     assert [row["passed"] for row in rows] == ["yes"] * 16
     tries = {row["step"]: int(row["tries"]) for row in rows[:-1]}
     assert tries["turn_right"] > 1 and tries["ahead"] == 1
