@@ -217,7 +217,7 @@ def test_keys_typed_into_the_picture_drive_too(keys):
     assert keys.has_focus(PICTURE)
     keys.drive_and_turn()
     keys.xdotool("key", "a")
-    assert eventually(lambda: keys.said("around_nothing"))
+    assert eventually(lambda: keys.said("proximity_lost"))
 
     # However long a frame takes.
     keys.drive()
