@@ -147,9 +147,9 @@ def trial_in(word, holds="trial.bag"):
     """The path of a trial's folder, also by the folder that holds it alone, as records of a batch are."""
     path = Path(os.path.abspath(word))
     inside = [*path.glob("trial-*")]
-    if len(inside) == 1 and not (path / holds).exists():
+    if len(inside) == 1 and not os.path.exists(path / holds):
         path = inside[0]
-    if not (path / holds).is_file():
+    if not os.path.isfile(path / holds):
         fail(f"{word} holds no {holds}; the folder of a trial is allowed, such as trials/trial-20260101T120000Z.", 2)
     return path
 

@@ -1,6 +1,7 @@
 """What the simulator and navigation make of a world: they know each other's work by the OctoMap alone."""
 import csv
 import json
+import os
 import re
 import subprocess
 import sys
@@ -35,8 +36,8 @@ def check_name(world):
     """Refuses a word that is neither a name nor a file, also where nothing is built."""
     presets = (share("navvi_sim") / "config" / "presets.yaml").read_text()
     known = re.findall(r"^- name: (\w+)", presets, re.M)
-    if world not in known and not Path(world).is_file():
-        wrong = f"\"{world}\" is a folder" if Path(world).is_dir() else f"no world and no file has the name \"{world}\""
+    if world not in known and not os.path.isfile(world):
+        wrong = f"\"{world}\" is a folder" if os.path.isdir(world) else f"no world and no file has the name \"{world}\""
         fail(f"{wrong}; allowed are: {' '.join(known)}, or a .yaml, .sdf or .world file.", 2)
 
 
@@ -44,11 +45,11 @@ def check_world(words):
     """Refuses the arguments of a world that are neither here nor drawn. Nodes run elsewhere: paths become absolute."""
     check_name(words["world"])
     for name in ("world", "classes"):
-        if name in words and Path(words[name]).is_file():
+        if name in words and os.path.isfile(words[name]):
             words[name] = Path(words[name]).resolve()
     folders = [folder for folder in words.get("models", "").split(":") if folder]
     for folder in folders:
-        if not Path(folder).is_dir():
+        if not os.path.isdir(folder):
             fail(f"models:={folder} is not a folder; folders that exist are allowed, separated by colons.", 2)
     if folders:
         words["models"] = ":".join(str(Path(folder).resolve()) for folder in folders)

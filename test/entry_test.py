@@ -66,6 +66,11 @@ def test_shell_scripts_are_clean():
     (["test", "no_such_" + "word"], "no test's name contains \"no_such_word\""),
     (["bench", "trials", "--world=/"], "\"/\" is a folder; allowed are: training"),
     (["run", "foo:=bar"], "participant person places profile robot rviz"),
+    (["run", *SIMULATED, "world:=" + 300 * "x"], "no world and no file has the name"),
+    (["run", *SIMULATED, "models:=" + 300 * "x"], "is not a folder"),
+    (["check", 300 * "x"], "holds no trial.bag"),
+    (["navmesh", 300 * "x" + ".bt"], "x.bt"),
+    (["study", "check", 300 * "x"], "x"),
     (["bench", "trials", "--world=nope"], "no world and no file has the name \"nope\""),
     (["batch", "--worlds=nope", "--out=/nonexistent"], "no world and no file has the name \"nope\""),
     *((["batch", "--out=/nonexistent", f"--{option}={value}"], f"--{option} is \"{value}\"; allowed are whole numbers from {least} to")

@@ -3,7 +3,7 @@
 
 fuzz_hours.py BUILD FILE.csv [HOURS]: the build folder with the packages' test programs, those with sanitizers if it has them; the file has a
 line a target and day, with the seeds that were used, so that the next run goes on with others; hours of the processor, over all runs. Prints
-the sum of each target at the end, or when it is stopped. What failed is in BUILD/fuzz.SEED.log.
+the sum of each target at the end, or when it is stopped. What failed is in BUILD/fuzz.TARGET.SEED.log.
 """
 import csv
 import datetime
@@ -85,7 +85,7 @@ def main():
             first = max((row[2] + row[3] for row in of_it), default=0)
             # What failed has not used its time, and is left out from then on.
             count = int(of_it[-1][3] * (1.0 if of_it[-1][5] else min(10.0, TURN / max(of_it[-1][4], 0.1)))) + 1 if of_it else FIRST
-            log = build / f"fuzz.{first}.log"
+            log = build / f"fuzz.{re.sub(r'[^A-Za-z0-9]+', '_', name)}.{first}.log"
             seconds, good = turn(found[name], first, count, log)
             if good:
                 log.unlink()

@@ -164,6 +164,11 @@ def test_a_pre_registration_has_the_sample_size_of_the_plans_effect_and_variance
     assert "sd" not in small(tmp_path).values()["primary"], "plans without keep their hash"
 
 
+def test_a_questionnaire_whose_name_no_file_can_have_is_refused(tmp_path):
+    with pytest.raises(StudyError, match="is not found"):
+        questionnaire.find("x" * 300, tmp_path)
+
+
 def test_every_questionnaire_that_ships_can_be_spoken_and_scored():
     for path in (PACKAGE / "studies/questionnaires").glob("*.yaml"):
         asked = questionnaire.load(path)

@@ -27,7 +27,7 @@ def map_file(word):
 
 
 def is_small(path):
-    return Path(path).is_file() and Path(path).stat().st_size < 64 << 20
+    return os.path.isfile(path) and Path(path).stat().st_size < 64 << 20
 
 
 def pixels(path, folder):

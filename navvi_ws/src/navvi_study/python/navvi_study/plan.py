@@ -1,6 +1,7 @@
 """What a study plans, as values."""
 import hashlib
 import json
+import os
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -38,7 +39,7 @@ def worlds_of(part, folder):
     """`{world: NAME, seeds: [...], zones: FILE, jobs: FILE}`; files are looked for beside the plan."""
     world, zones, jobs = part.take("world", checked.text), part.take("zones", checked.text, ""), part.take("jobs", checked.text, "")
     for key, name in ("world", world if world.endswith(WORLD_FILES) else ""), ("zones", zones), ("jobs", jobs):
-        if name and not (folder / name).is_file():
+        if name and not os.path.isfile(folder / name):
             names = ", and names of ./navvi world list" if key == "world" else ""
             raise part.error(key, f"is \"{name}\", and {folder / name} is not a file; allowed are files beside the plan{names}")
     if jobs:
