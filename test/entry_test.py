@@ -68,9 +68,6 @@ def test_shell_scripts_are_clean():
     (["run", "foo:=bar"], "participant person places profile robot rviz"),
     (["run", *SIMULATED, "world:=" + 300 * "x"], "no world and no file has the name"),
     (["run", *SIMULATED, "models:=" + 300 * "x"], "is not a folder"),
-    (["check", 300 * "x"], "holds no trial.bag"),
-    (["navmesh", 300 * "x" + ".bt"], "x.bt"),
-    (["study", "check", 300 * "x"], "x"),
     (["bench", "trials", "--world=nope"], "no world and no file has the name \"nope\""),
     (["batch", "--worlds=nope", "--out=/nonexistent"], "no world and no file has the name \"nope\""),
     *((["batch", "--out=/nonexistent", f"--{option}={value}"], f"--{option} is \"{value}\"; allowed are whole numbers from {least} to")
