@@ -1,8 +1,6 @@
 #include "navvi_floor/floor.hpp"
 
-#include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "navvi_floor/parallel.hpp"
 

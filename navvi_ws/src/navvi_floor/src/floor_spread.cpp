@@ -1,6 +1,5 @@
 #include "floor_spread.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <navvi_types/angles.hpp>

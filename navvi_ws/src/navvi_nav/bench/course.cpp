@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
-#include <random>
 #include <sstream>
 #include <stdexcept>
 
@@ -75,9 +73,9 @@ octomap::OcTree Hall::map() const {
 using map::Floor;
 using mesh::Polygon;
 
-double now() {
+double now(clockid_t clock) {
   timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  clock_gettime(clock, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 

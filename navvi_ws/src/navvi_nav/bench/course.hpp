@@ -3,6 +3,7 @@
 #include <octomap/OcTree.h>
 
 #include <cstdint>
+#include <ctime>
 #include <map>
 #include <memory>
 #include <random>
@@ -34,8 +35,8 @@ struct Query {
   Point goal;
 };
 
-/// s, of the processor, by this thread
-[[nodiscard]] double now();
+/// s, of the processor, by this thread unless told otherwise
+[[nodiscard]] double now(clockid_t clock = CLOCK_THREAD_CPUTIME_ID);
 
 /// One hall with the meshes that are made of it, and what they are asked.
 struct Course {

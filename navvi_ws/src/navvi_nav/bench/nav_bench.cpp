@@ -285,18 +285,13 @@ double map_at_2_hz(const Course& c) {
   };
   send(0);
   taken();
-  const auto now = [] {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-  };
-  const double begin = now();
+  const double begin = now(CLOCK_PROCESS_CPUTIME_ID);
   for (int turn = 1; turn <= kMaps; ++turn) {
     send(turn);
     std::this_thread::sleep_for(kBeat);
     taken();
   }
-  return (now() - begin) / kMaps;
+  return 1e3 * (now(CLOCK_PROCESS_CPUTIME_ID) - begin) / kMaps;
 }
 
 void print_maps(const Medians& medians, const Course& c) {

@@ -8,7 +8,6 @@
 #include <cstring>
 
 namespace navvi_nav::plain {
-namespace {
 
 constexpr int kMaxNodes = 65535;                // the most that Detour can count
 constexpr int kMaxPolygons = 16384;             // of one path
@@ -23,8 +22,6 @@ constexpr std::size_t kArena = std::size_t{4} << 20;  // bytes
 
 using Layers = std::unique_ptr<rcHeightfieldLayerSet,
                                Release<rcHeightfieldLayerSet, rcFreeHeightfieldLayerSet>>;
-
-}  // namespace
 
 void require(bool done, const char* step) {
   if (!done) throw std::runtime_error(std::string("the plain bake failed in ") + step);

@@ -84,8 +84,6 @@ class TileCache {
   /// \param tile  cells along a tile, at most 240
   TileCache(const Columns& columns, double robot_radius, double robot_height, int tile);
   ~TileCache();
-  TileCache(const TileCache&) = delete;
-  TileCache& operator=(const TileCache&) = delete;
 
   /// Takes the obstacles of the last call away, puts these, and rebuilds until all is done.
   void place(const std::vector<Cylinder>& cylinders);

@@ -109,7 +109,6 @@ struct Stop {
 /// deg, turned too far to the left by ticks that end in a sound to stop.
 double over_by_ticks(const SimulatedOperatorConfig& config, double angle, Stop stop,
                      double late = 0.0) {
-  using navvi_types::Earcon;
   Rig rig(config, late);
   rig.say("drive straight, 9 meters");
   rig.wait(3.0);
@@ -119,11 +118,11 @@ double over_by_ticks(const SimulatedOperatorConfig& config, double angle, Stop s
     const double left = target - rig.yaw() - stop.angle - rig.rate() * stop.delay;
     if (!told && left <= 0.0) {
       told = true;
-      rig.sound(Earcon::turn_stop, 0.3, 0.3);
+      rig.sound(navvi_types::Earcon::turn_stop, 0.3, 0.3);
     }
     // As the guide's: the faster, the less is left.
     const int every = left > 1.0 ? 20 : left > 0.5 ? 12 : 8;
-    if (!told && i % every == 0) rig.sound(Earcon::turn, 0.6, 0.0);
+    if (!told && i % every == 0) rig.sound(navvi_types::Earcon::turn, 0.6, 0.0);
     rig.step();
   }
   return (rig.yaw() - target) / kDegree;

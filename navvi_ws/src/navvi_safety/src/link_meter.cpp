@@ -5,13 +5,10 @@
 #include <vector>
 
 namespace navvi_safety {
-namespace {
 
 constexpr double kWindow = 5.0;   // s
 constexpr double kSlow = 0.3;     // s later than usual
 constexpr double kTooLate = 1.0;  // s, likewise
-
-}  // namespace
 
 void LinkMeter::add(double age, std::uint32_t seq, double time) {
   late_ = lateness(age);

@@ -8,7 +8,6 @@
 
 #include "navvi_sim/description/world_description.hpp"
 #include "navvi_sim/physics/robot.hpp"
-#include "navvi_sim/scenario/scenario.hpp"
 
 namespace navvi_sim::bench {
 
@@ -28,8 +27,6 @@ class BareBullet {
   BareBullet(const WorldDescription& description, const physics::RobotConfig& robot,
              const Pose2& start);
   ~BareBullet();
-  BareBullet(const BareBullet&) = delete;
-  BareBullet& operator=(const BareBullet&) = delete;
 
   /// \param speed  m/s, forward \param turn_rate  rad/s, counter-clockwise \param dt  s
   void step(double speed, double turn_rate, double dt);

@@ -20,6 +20,7 @@
 #include <navvi_people/loop/closed_loop.hpp>
 #include <navvi_types/angles.hpp>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,7 +33,6 @@ namespace {
 
 using batch::LoopTrial;
 using navvi_config::ConfigError;
-using navvi_people::loop::ClosedLoop;
 using navvi_people::loop::Spoken;
 using record::Figure;
 
@@ -68,7 +68,6 @@ struct BenchConfig {
 
   void describe(navvi_config::Visitor& visit) {
     using navvi_config::Any;
-    using navvi_config::OneOf;
     using navvi_config::Range;
     visit(world, "world", Any{}, "", "names or files, with commas between");
     visit(seeds, "seeds", Any{}, "", "of worlds, starts and goals, such as 7 or 1-10");
@@ -79,7 +78,7 @@ struct BenchConfig {
           "of ~/.cache/navvi/worlds, which keeps map, start, goal and mesh of each world and seed");
     visit(csv, "csv", Any{}, "", "a row with all figures, as CSV");
     visit(out, "out", Any{}, "", "folder of records; empty: none are kept");
-    visit(records, "records", OneOf{{"all", "failed", "none"}}, "",
+    visit(records, "records", navvi_config::OneOf{{"all", "failed", "none"}}, "",
           "which are kept; failed: of trials that do not reach their goals");
     visit(trace, "trace", Any{}, "s",
           "print the journal, and the track once a second, such as 30-60; true: all");
@@ -88,16 +87,6 @@ struct BenchConfig {
     visit.group("trial", trial);
   }
 };
-
-std::vector<std::string> list(const std::string& text) {
-  std::vector<std::string> items;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    if (end > begin) items.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return items;
-}
 
 std::string share(const std::string& package) {
   const std::string path = ros::package::getPath(package);
@@ -180,7 +169,7 @@ void print_trace(const record::Trial& trial, const Span& span) {
 
 record::Trial play(const BenchConfig& config, const Spoken& spoken,
                    const navvi_files::Cache* cache, const std::filesystem::path& folder) {
-  ClosedLoop loop(config.loop, spoken, cache);
+  navvi_people::loop::ClosedLoop loop(config.loop, spoken, cache);
   LoopTrial trial(config.trial, loop, spoken.file);
   const auto utc = std::chrono::system_clock::now().time_since_epoch();
   if (!folder.empty())
@@ -236,7 +225,10 @@ void print_csv(const std::string& first, const Cell& cell) {
 int run(const BenchConfig& config) {
   const Span span_of_seeds = span("seeds", config.seeds);
   const auto seeds = static_cast<std::size_t>(span_of_seeds.to - span_of_seeds.from) + 1;
-  const std::vector<std::string> worlds = list(config.world);
+  std::vector<std::string> worlds;
+  std::istringstream names(config.world);
+  for (std::string name; std::getline(names, name, ',');)
+    if (!name.empty()) worlds.push_back(name);
   if (worlds.size() * seeds > kMostTrials)
     throw ConfigError("the worlds and seeds make " + std::to_string(worlds.size() * seeds) +
                      " trials; allowed are " + std::to_string(kMostTrials) + ".");

@@ -3,7 +3,6 @@
 #include <navvi_types/cue_event.hpp>
 #include <optional>
 
-#include "cues/cue.hpp"
 #include "haptics/pattern.hpp"
 #include "navvi_feedback/sounds/earcon.hpp"
 

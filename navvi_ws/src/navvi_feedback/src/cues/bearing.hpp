@@ -4,7 +4,6 @@
 
 #include "cues/clock_face.hpp"
 #include "cues/cue_config.hpp"
-#include "cues/phrases.hpp"
 #include "senses/observation.hpp"
 
 namespace navvi_feedback::cues {

@@ -6,12 +6,9 @@
 #include "cues/surroundings.hpp"
 
 namespace navvi_feedback::cues {
-namespace {
 
 /// m, gap; what is farther is not around.
 constexpr double kAround = 3.0;
-
-}  // namespace
 
 sounds::Earcon earcon_of(ThingClass thing) {
   const std::string name = to_string(is_structure(thing) ? ThingClass::shelf : thing);

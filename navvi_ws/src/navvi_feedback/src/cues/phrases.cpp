@@ -16,7 +16,6 @@ namespace {
 using navvi_config::ConfigError;
 using navvi_types::kMaxName;
 using navvi_types::kMaxNameWord;
-using navvi_types::kMaxWord;
 using navvi_types::names;
 
 constexpr int kMostPlaces = 999;          // of one name that are told by number
@@ -164,7 +163,7 @@ std::vector<std::string> possible(const std::string& placeholder,
   } else {
     add(placeholder + "_");
   }
-  if (placeholder == "person") texts = {std::string(kMaxWord, 'a')};
+  if (placeholder == "person") texts = {std::string(navvi_types::kMaxWord, 'a')};
   if (placeholder == "value") texts.push_back("999 " + words.at("percent"));
   if (placeholder == "place")
     for (std::string& text : texts) text += " 999";

@@ -3,12 +3,9 @@
 #include <algorithm>
 
 namespace navvi_feedback::devices {
-namespace {
 
 constexpr double kBin = 0.1;           // ms
 constexpr std::size_t kBins = 10'001;  // the last for all that is longer
-
-}  // namespace
 
 void Latencies::add(Chain chain, Clock::time_point cause) {
   const double ms = std::chrono::duration<double, std::milli>(Clock::now() - cause).count();

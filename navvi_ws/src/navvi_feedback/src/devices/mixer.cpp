@@ -55,12 +55,10 @@ void place(ALuint source, const Eigen::Vector2d& from) {
 
 void MixerConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Any;
-  using navvi_config::OneOf;
-  using navvi_config::Range;
   visit(device, "device", Any{}, "", "name of the OpenAL device; empty for the default one");
-  visit(hrtf, "hrtf", OneOf{{"auto", "on", "off"}}, "",
+  visit(hrtf, "hrtf", navvi_config::OneOf{{"auto", "on", "off"}}, "",
         "sound for two ears, so that ahead and behind differ; auto: with headphones");
-  visit(volume, "volume", Range{0.1, 1.0}, "", "gain of all that is heard");
+  visit(volume, "volume", navvi_config::Range{0.1, 1.0}, "", "gain of all that is heard");
 }
 
 struct Mixer::Handles {

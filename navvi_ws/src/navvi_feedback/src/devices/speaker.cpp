@@ -27,12 +27,11 @@ constexpr auto kHangs = std::chrono::seconds(2);
 }  // namespace
 
 void SpeakerConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Any;
   using navvi_config::Range;
   visit(rate, "rate", Range{80.0, 449.0}, "words/min", "rate of speech");
   visit(volume, "volume", Range{0.0, 1.0}, "", "gain of the voice");
   visit(pitch, "pitch", Range{0.0, 99.0}, "", "of the voice; 50 is its own");
-  visit(voice, "voice", Any{}, "",
+  visit(voice, "voice", navvi_config::Any{}, "",
         "a voice of espeak-ng, such as en-us; empty for that of the language");
 }
 

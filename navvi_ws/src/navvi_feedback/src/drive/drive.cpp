@@ -5,20 +5,9 @@
 #include <limits>
 
 namespace navvi_feedback::drive {
-namespace {
 
 constexpr double kBrakes = 2.5;  // m/s^2
 constexpr double kSeen = 1.0;    // m, free, at which a delay alone limits the speed
-
-/// Towards `wanted`, faster when that takes `value` nearer to zero.
-double approach(double value, double wanted, double speed_up, double slow_down, double dt) {
-  // A change of direction first brings the value to zero, at the braking rate.
-  const double target = value * wanted < 0.0 ? 0.0 : wanted;
-  const double limit = (std::abs(target) < std::abs(value) ? slow_down : speed_up) * dt;
-  return value + std::clamp(target - value, -limit, limit);
-}
-
-}  // namespace
 
 void DriveConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -65,10 +54,11 @@ std::optional<Velocity> Drive::update(const std::optional<Stick>& stick, double 
     return Velocity{};
   }
   const double linear = wanted.y * (wanted.y > 0.0 ? config_.max_forward : config_.max_reverse);
-  velocity_.linear =
-      approach(velocity_.linear, linear, config_.acceleration, config_.deceleration, dt);
-  velocity_.angular = approach(velocity_.angular, wanted.x * config_.max_turn,
-                               config_.turn_acceleration, config_.turn_acceleration, dt);
+  velocity_.linear = navvi_types::approach(velocity_.linear, linear, config_.acceleration * dt,
+                                           config_.deceleration * dt);
+  const double turn = config_.turn_acceleration * dt;
+  velocity_.angular =
+      navvi_types::approach(velocity_.angular, wanted.x * config_.max_turn, turn, turn);
   return velocity_;
 }
 

@@ -1,6 +1,5 @@
 #include "menu/menu.hpp"
 
-#include <algorithm>
 
 namespace navvi_feedback::menu {
 namespace {

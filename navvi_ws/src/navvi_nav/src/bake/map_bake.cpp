@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <navvi_floor/parallel.hpp>
-#include <string>
-#include <utility>
 
 #include "bake/fine_parts.hpp"
 #include "bake/merge_convex.hpp"

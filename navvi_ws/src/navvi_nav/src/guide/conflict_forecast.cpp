@@ -1,7 +1,6 @@
 #include "guide/conflict_forecast.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "guide/cylinders.hpp"
 
@@ -72,8 +71,7 @@ struct ConflictForecast::Encounter {
 };
 
 void ConflictForecastConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(look_ahead, "look_ahead", Range{0.5, 1e6}, "m",
+  visit(look_ahead, "look_ahead", navvi_config::Range{0.5, 1e6}, "m",
         "obstacles on the path farther ahead than this are left to move away");
 }
 

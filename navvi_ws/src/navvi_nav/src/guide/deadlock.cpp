@@ -23,8 +23,7 @@ bool faces(const MovingThing& thing, Point robot) {
 }  // namespace
 
 void DeadlockConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(make_room_after, "make_room_after", Range{0.0, 600.0}, "s",
+  visit(make_room_after, "make_room_after", navvi_config::Range{0.0, 600.0}, "s",
         "time a thing blocks the only way, facing the robot, until the robot yields; 0: never");
 }
 

@@ -4,17 +4,13 @@
 #include <cmath>
 
 namespace navvi_nav::guide {
-namespace {
 
 constexpr double kMoving = 0.1;     // m/s
 constexpr double kMemory = 10.0;    // s, time constant of the pace
 constexpr double kMostAhead = 0.3;  // s, of a pose; clocks and messages differ by less
 
-}  // namespace
-
 void ObservationConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(most_cylinders, "most_cylinders", Range{1.0, 4.0}, "",
+  visit(most_cylinders, "most_cylinders", navvi_config::Range{1.0, 4.0}, "",
         "as which a long thing is taken, in a row; 1: the one about it (R-NAV-4)");
 }
 

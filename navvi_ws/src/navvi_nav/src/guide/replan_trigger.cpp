@@ -34,10 +34,9 @@ void SecondAsk::reset() {
 }
 
 void ReplanTriggerConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(period, "period", Range{0.1, 60.0}, "s",
+  visit(period, "period", navvi_config::Range{0.1, 60.0}, "s",
         "tau: a plan is made again at least so often (R-NAV-9)");
-  visit(near_range, "near_range", Range{0.0, 20.0}, "m",
+  visit(near_range, "near_range", navvi_config::Range{0.0, 20.0}, "m",
         "R_threshold: a new obstacle within this distance of the robot is a reason");
   visit(only_if_it_matters, "only_if_it_matters", navvi_config::Any{}, "",
         "search for a path that is still free only if something left a place through which a "

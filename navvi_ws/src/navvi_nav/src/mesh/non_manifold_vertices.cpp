@@ -3,11 +3,8 @@
 #include <algorithm>
 
 namespace navvi_nav::mesh {
-namespace {
 
 constexpr double kNearlyStraight = 1e-9;  // rad, a free angle less under 180 degrees is a corner
-
-}  // namespace
 
 int& NonManifoldVertices::walls(int vertex) {
   if (slot(vertex) >= walls_.size()) walls_.resize(2 * slot(vertex) + 64, 0);

@@ -3,15 +3,12 @@
 #include <navvi_types/msg_conversion.hpp>
 
 namespace navvi_nav::node {
-namespace {
 
 constexpr std::uint32_t kMaxGridSide = 1000000;  // cells
 constexpr float kMeshAlpha = 0.35F;
 constexpr double kAboveFloor = 0.02;  // m
 constexpr double kBorder = 0.12;      // m, of a zone
 constexpr double kDash = 0.5;         // m, of a slow one, and as much between two
-
-}  // namespace
 
 plan::MapMessage from_msg(const octomap_msgs::Octomap& map) {
   plan::MapMessage out;

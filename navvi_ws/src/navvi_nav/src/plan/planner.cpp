@@ -3,7 +3,6 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "plan/escape.hpp"

@@ -1,7 +1,6 @@
 #include "plan/route.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "plan/escape.hpp"

@@ -78,8 +78,7 @@ int samples_of(Point a, Point b) {
 }  // namespace
 
 void GuideCostConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(preferred_clearance, "preferred_clearance", Range{0.0, 2.0}, "m",
+  visit(preferred_clearance, "preferred_clearance", navvi_config::Range{0.0, 2.0}, "m",
         "room a guide path leaves beyond the robot's radius where there is room");
 }
 

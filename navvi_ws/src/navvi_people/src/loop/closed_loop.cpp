@@ -90,9 +90,8 @@ bool ClosedLoop::step() {
 }
 
 bool ClosedLoop::turn_wheels() {
-  using navvi_safety::CommandGate;
   const navvi_types::Velocity wheels = gate_.update(instant());
-  const bool running = gate_.state() == CommandGate::State::running;
+  const bool running = gate_.state() == navvi_safety::CommandGate::State::running;
   return session_.step(wheels, running ? navvi_sim::physics::Braking::normal
                                        : navvi_sim::physics::Braking::emergency) ==
          navvi_sim::live::World::Status::running;

@@ -5,7 +5,6 @@
 #include <navvi_types/angles.hpp>
 
 namespace navvi_people::people {
-namespace {
 
 constexpr double kDegree = navvi_types::kPi / 180.0;
 constexpr double kLeast = 22.5 * kDegree;   // below, nobody has measured; in proportion
@@ -13,8 +12,6 @@ constexpr double kSlight = 60.0 * kDegree;  // the border of the classes
 
 constexpr double kEndStop = 0.99;
 constexpr double kTremor = 0.3;  // s, over which the noise of a hand is alike
-
-}  // namespace
 
 double Turning::made(double angle) {
   const double error = random_.normal() * config_.over_spread;

@@ -6,7 +6,6 @@
 #include "navvi_people/people/simulated_operator.hpp"
 
 namespace navvi_people::people {
-namespace {
 
 constexpr double kOneSided = 0.8;    // of one motor over the other: very near at a side
 constexpr double kTicksOver = 1.2;   // s; ticks that paused for so long are over
@@ -18,8 +17,6 @@ constexpr double kStillShown = 2.0;  // s; what is shown for so long after "stop
 // s, that speech adds to reactions: Mohebbi, Gray and Tan 2009, 16 people
 constexpr double kTalkToEar = 0.148;
 constexpr double kTalkToHand = 0.053;
-
-}  // namespace
 
 StickAndButtons SimulatedOperator::act(double time, double dt) {
   static constexpr Rule kRules[] = {

@@ -26,9 +26,8 @@ void Attention::update(bool moves, double time, double dt) {
 }
 
 void LearningConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
   visit(on, "on", navvi_config::Any{}, "", "false: every route is the first");
-  visit(routes, "routes", Range{1, 1000}, "", "driven, this one too");
+  visit(routes, "routes", navvi_config::Range{1, 1000}, "", "driven, this one too");
 }
 
 double Learning::factor() const {

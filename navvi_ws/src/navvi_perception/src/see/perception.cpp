@@ -37,12 +37,11 @@ struct Values {
   double period = 1.0;  ///< s, least time between two maps
 
   void describe(navvi_config::Visitor& visit) {
-    using navvi_config::Range;
     visit.group("map", map);
     visit.group("tracks", tracks);
-    visit(robot_radius, "robot_radius", Range{0.05, 3.0}, "m",
+    visit(robot_radius, "robot_radius", navvi_config::Range{0.05, 3.0}, "m",
           "of the robot's hull; what is nearer to its middle is the robot itself");
-    visit(wall, "wall", Range{0.5, 100.0}, "m",
+    visit(wall, "wall", navvi_config::Range{0.5, 100.0}, "m",
           "least length of a standing object that is called a wall, a rack too; all else is other");
   }
 };

@@ -3,7 +3,6 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <map>
 #include <utility>

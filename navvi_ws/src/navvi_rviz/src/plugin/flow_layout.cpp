@@ -7,13 +7,10 @@
 #include <algorithm>
 
 namespace navvi_rviz::plugin {
-namespace {
 
 constexpr int kPadding = 6;  // px, around words; the frame of the focus is in it
 constexpr int kLeast = 8;    // px, of a font
 constexpr int kFlags = Qt::TextWordWrap | Qt::AlignLeft | Qt::AlignVCenter;
-
-}  // namespace
 
 QSize WordsLabel::sizeHint() const {
   ensurePolished();

@@ -4,7 +4,6 @@
 #include <navvi_config/reader.hpp>
 #include <navvi_types/spoken.hpp>
 #include <set>
-#include <utility>
 
 namespace navvi_rviz::status {
 namespace {
@@ -15,7 +14,6 @@ constexpr double kFresh = 1.0;     // s, after which a robot that fell silent ha
 constexpr double kNoSound = 10.0;  // s, for which "no sound" hides the way
 constexpr double kRead = 4.0;      // s, that what was said stays to be read
 
-using navvi_types::CueFamily;
 using navvi_types::CueKind;
 
 /// The menu is closed, by itself or by what was chosen.
@@ -154,7 +152,7 @@ void Status::choose_banner(double time, Shown& shown) const {
   };
   if (gate_ == navvi_types::DriveState::State::stopped)
     show(words_.said(CueKind::robot_stopped, keyboard_), Shown::Tone::alarm);
-  if (order_ && family_of(order_->kind) != CueFamily::way)
+  if (order_ && family_of(order_->kind) != navvi_types::CueFamily::way)
     show(order_->text, tone_of(order_->kind));
   shown.mover = words_.mover_in(shown.banner);
   if (silent_ && time - *silent_ < kNoSound) show(words_.of("picture/no_sound"), Shown::Tone::wait);

@@ -4,11 +4,8 @@
 #include <numeric>
 
 namespace navvi_sim {
-namespace {
 
 constexpr std::uint32_t kLeaf = 4;  // boxes, the most in a leaf
-
-}  // namespace
 
 AabbTree::AabbTree(const std::vector<Eigen::AlignedBox3d>& boxes) : order_(boxes.size()) {
   std::iota(order_.begin(), order_.end(), 0u);

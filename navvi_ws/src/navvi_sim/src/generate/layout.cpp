@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "generate/floor_plan.hpp"
 #include "generate/layout_goods.hpp"
 #include "generate/layout_traffic.hpp"
 

@@ -6,7 +6,6 @@
 #include "description/sentence.hpp"
 
 namespace navvi_sim::generate {
-namespace {
 
 constexpr int kBaysPerRack = 6;          // at most; longer rows are made of several racks
 constexpr double kPalletHeight = 0.144;  // m, of a EUR-pallet
@@ -18,8 +17,6 @@ constexpr double kPalletRoom = 0.95;     // m, that a pallet set down askew take
 constexpr double kPedestalRoom = 0.85;   // m, likewise
 constexpr double kBoxRoom = 0.75;        // m, likewise, boxes
 constexpr double kStandRoom = 0.6;       // m, likewise, a worker
-
-}  // namespace
 
 LayoutGoods::LayoutGoods(const FloorPlan& plan, const LayoutConfig& config)
     : plan_(plan), config_(config) {

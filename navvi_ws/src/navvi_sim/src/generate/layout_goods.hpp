@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "generate/floor_plan.hpp"
-#include "generate/furniture.hpp"
 #include "generate/layout_traffic.hpp"
 
 namespace navvi_sim::generate {

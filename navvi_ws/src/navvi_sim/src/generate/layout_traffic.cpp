@@ -4,7 +4,6 @@
 #include <string>
 
 namespace navvi_sim::generate {
-namespace {
 
 constexpr double kMargin = 0.15;    // m, between what moves and what stands
 constexpr double kTwoTracks = 2.6;  // m, an aisle's least width for two
@@ -14,8 +13,6 @@ constexpr double kFromEnds = 1.0;   // m, kept off an aisle's ends by walkers
 constexpr int kLongestShuttle = 3;  // blocks
 constexpr int kWidestLoop = 3;      // rows
 constexpr int kLongestLoop = 2;     // blocks
-
-}  // namespace
 
 LayoutTraffic::LayoutTraffic(const FloorPlan& plan, const LayoutConfig& config, Random random)
     : plan_(plan), config_(config), random_(random) {

@@ -1,7 +1,6 @@
 #include "navvi_sim/live/world.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "description/footprint.hpp"
 #include "description/hash.hpp"
@@ -11,12 +10,9 @@
 #include "traffic/traffic.hpp"
 
 namespace navvi_sim::live {
-namespace {
 
 constexpr double kCrushing = 0.01;  // m, deeper in the robot than this no mover pushes on
 constexpr double kMaxPushed = 3.0;  // m/s, the fastest a mover can shove the robot
-
-}  // namespace
 
 void WorldConfig::describe(navvi_config::Visitor& visit) {
   visit(wait_for_robot, "wait_for_robot", navvi_config::Any{}, "",

@@ -4,7 +4,6 @@
 #include <map>
 #include <navvi_types/msg_conversion.hpp>
 #include <utility>
-#include <vector>
 
 #include "scene/painter.hpp"
 

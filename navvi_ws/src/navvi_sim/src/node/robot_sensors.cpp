@@ -7,15 +7,11 @@
 #include <navvi_types/msg_conversion.hpp>
 
 #include "navvi_sim/node/msg_conversion.hpp"
-#include "navvi_sim/occupancy/slice.hpp"
 
 namespace navvi_sim::node {
-namespace {
 
 constexpr const char* kLidarFrame = "laser";
 constexpr const char* kCameraFrame = "camera_link";
-
-}  // namespace
 
 sensor_msgs::LaserScan scan_msg(const sensors::Sensor& lidar, const sensors::Reading& reading,
                                 const std::string& frame) {

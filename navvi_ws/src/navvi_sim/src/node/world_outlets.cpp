@@ -10,13 +10,10 @@
 #include "navvi_sim/occupancy/occupancy.hpp"
 
 namespace navvi_sim::node {
-namespace {
 
 // What moves in the picture, for a bag that RViz shows without us: seldom, that it stays small.
 constexpr double kRecordedPeriod = 0.5;     // s
 constexpr double kRecordedMarkers = 400.0;  // a second, at most
-
-}  // namespace
 
 Picture::Picture(ros::NodeHandle& node, const WorldDescription& world,
                  const physics::RobotConfig& robot, const occupancy::OccupancyMap& map,

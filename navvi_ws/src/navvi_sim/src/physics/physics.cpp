@@ -1,7 +1,6 @@
 #include "physics/physics.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "description/hash.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <btBulletDynamicsCommon.h>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
@@ -66,8 +65,6 @@ class Physics {
   Physics(const Bodies& bodies, double floor, const RobotConfig& robot,
           const Eigen::Vector2d& position, double yaw);
   ~Physics();
-  Physics(const Physics&) = delete;
-  Physics& operator=(const Physics&) = delete;
 
   void set_robot_velocity(const Eigen::Vector2d& velocity, double turn_rate);
   /// One step of `dt` s, at most 0.01.

@@ -1,7 +1,6 @@
 #include "physics/proximity.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace navvi_sim::physics {

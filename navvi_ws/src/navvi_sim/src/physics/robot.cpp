@@ -1,21 +1,8 @@
 #include "navvi_sim/physics/robot.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace navvi_sim::physics {
-namespace {
-
-/// `now` moved towards `target`, by at most `faster` where its size grows, `slower` where it falls.
-/// A change of direction brakes first.
-double approach(double now, double target, double faster, double slower) {
-  const bool reverses = now * target < 0.0;
-  const double goal = reverses ? 0.0 : target;
-  const double limit = std::abs(goal) > std::abs(now) ? faster : slower;
-  return now + std::clamp(goal - now, -limit, limit);
-}
-
-}  // namespace
 
 void RobotConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;
@@ -41,6 +28,7 @@ navvi_types::Velocity servo(const RobotConfig& config, const navvi_types::Veloci
   const bool hard = braking == Braking::emergency;
   const double linear = std::clamp(command.linear, -config.max_speed, config.max_speed);
   const double angular = std::clamp(command.angular, -config.max_turn_rate, config.max_turn_rate);
+  using navvi_types::approach;
   return {approach(now.linear, linear, config.acceleration * dt,
                    (hard ? config.brake : config.deceleration) * dt),
           approach(now.angular, angular, config.angular_acceleration * dt,

@@ -19,10 +19,9 @@ navvi_types::Velocity body_of(double left, double right) {
 }  // namespace
 
 void ImperfectionsConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Range;
-  visit(odometry_left, "odometry_left", Range{-0.2, 0.2}, "",
+  visit(odometry_left, "odometry_left", navvi_config::Range{-0.2, 0.2}, "",
         "share by which odometry counts the left wheel's way too long");
-  visit(odometry_noise, "odometry_noise", Range{0.0, 0.1}, "m per root of a metre",
+  visit(odometry_noise, "odometry_noise", navvi_config::Range{0.0, 0.1}, "m per root of a metre",
         "standard deviation of each wheel's counted way; grows with the root of the way");
 }
 

@@ -11,7 +11,6 @@
 #include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>

@@ -1,7 +1,6 @@
 #include "read/sdf_notes.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include "description/sentence.hpp"
 #include "read/sdf_own.hpp"

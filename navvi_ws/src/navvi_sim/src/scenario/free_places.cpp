@@ -1,6 +1,5 @@
 #include "scenario/free_places.hpp"
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <set>

@@ -5,13 +5,10 @@
 #include <limits>
 
 namespace navvi_sim::scene {
-namespace {
 
 constexpr std::size_t kVeryMany = 20000;  // cubes
 constexpr std::size_t kLongList = 2000;   // cubes
 constexpr double kTile = 50.0;            // m
-
-}  // namespace
 
 using visualization_msgs::Marker;
 

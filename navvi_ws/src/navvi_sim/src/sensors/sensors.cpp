@@ -9,12 +9,9 @@
 #include "physics/bullet_shapes.hpp"
 
 namespace navvi_sim::sensors {
-namespace {
 
 constexpr double kDegree = navvi_types::radians(1.0);
 constexpr double kUnderside = 1e-3;  // m above the floor; what ends lower is the floor itself
-
-}  // namespace
 
 void LidarConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;

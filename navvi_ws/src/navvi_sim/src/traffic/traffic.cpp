@@ -5,11 +5,8 @@
 #include "description/hash.hpp"
 
 namespace navvi_sim::traffic {
-namespace {
 
 constexpr std::uint64_t kServeEach = 5;  // steps
-
-}  // namespace
 
 Traffic::Traffic(const WorldDescription& world, const MoversConfig& config, std::uint64_t seed)
     : patience_(config.patience), lanes_(lay_lanes(world, config)) {

@@ -1,9 +1,5 @@
 #include "batch/loop_trial.hpp"
 
-#include <navvi_msgs/AppliedCommands.h>
-#include <navvi_msgs/Scenario.h>
-#include <navvi_msgs/StateHash.h>
-#include <navvi_msgs/TrialEvent.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/Joy.h>
 #include <tf2_msgs/TFMessage.h>
@@ -16,7 +12,6 @@
 #include <utility>
 
 #include "node/msg_conversion.hpp"
-#include "record/journal.hpp"
 #include "record/trial_folder.hpp"
 
 namespace navvi_study::batch {
@@ -40,15 +35,10 @@ void must(const navvi_files::Problem& problem) {
 /// As sim_node publishes it, but for the places, which no reader of a bag needs.
 navvi_types::Scenario scenario_of(const ClosedLoop& loop) {
   const navvi_sim::setup::SimNodeConfig& sim = loop.config().sim;
-  navvi_types::Scenario scenario;
-  scenario.world = loop.world().name;
-  scenario.world_hash = navvi_sim::world_hash(loop.world());
-  scenario.seed = static_cast<std::uint64_t>(sim.seed);
-  scenario.goal = loop.scenario().goal;
-  scenario.start = loop.scenario().start;
-  scenario.floor = loop.world().floor_height;
-  scenario.parameters = navvi_sim::setup::recipe(sim, loop.scenario());
-  return scenario;
+  const navvi_sim::scenario::StartAndGoal& ends = loop.scenario();
+  return {loop.world().name, navvi_sim::world_hash(loop.world()),
+          static_cast<std::uint64_t>(sim.seed), ends.goal, ends.start,
+          loop.world().floor_height, {}, navvi_sim::setup::recipe(sim, ends)};
 }
 
 }  // namespace

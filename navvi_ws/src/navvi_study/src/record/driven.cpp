@@ -4,7 +4,6 @@
 #include <cmath>
 #include <navvi_types/angles.hpp>
 #include <navvi_types/cue_kind.hpp>
-#include <navvi_types/signal.hpp>
 
 namespace navvi_study::record {
 namespace {

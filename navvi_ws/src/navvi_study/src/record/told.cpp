@@ -10,7 +10,6 @@
 namespace navvi_study::record {
 namespace {
 
-using navvi_types::About;
 using navvi_types::Content;
 using navvi_types::CueKind;
 using navvi_types::radians;
@@ -96,7 +95,7 @@ class Ear {
 
 bool tells_new_way(const Content& told) {
   return told == CueKind::rerouted || told == CueKind::new_route || told == CueKind::make_room ||
-         told == Content(CueKind::no_way, About::no_route);
+         told == Content(CueKind::no_way, navvi_types::About::no_route);
 }
 
 /// How many hours lie between two, the shorter way round.
@@ -125,7 +124,7 @@ class Compass {
     const int hour = static_cast<int>(row.fields.number("hour").value_or(12.0));
     const bool new_way = tells_new_way(*told);
     const bool replaced = new_way || told == CueKind::turn_cancelled ||
-                          told == Content(CueKind::straight, About::then);
+                          told == Content(CueKind::straight, navvi_types::About::then);
     if (replaced || driven(*at) > announced_until_) announced_ = 0;
     if (told == CueKind::turn_ahead) {
       announced_ = hour;

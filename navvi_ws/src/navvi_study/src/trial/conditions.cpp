@@ -8,7 +8,6 @@
 #include <boost/algorithm/string/join.hpp>
 #include <cstring>
 #include <fstream>
-#include <vector>
 
 namespace navvi_study::trial {
 namespace {

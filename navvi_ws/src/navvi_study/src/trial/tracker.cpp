@@ -3,12 +3,9 @@
 #include <navvi_types/angles.hpp>
 
 namespace navvi_study::trial {
-namespace {
 
 constexpr auto kPeriod = static_cast<std::int64_t>(1e9 / record::kTrackRate);  // ns
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-
-}  // namespace
 
 void Tracker::observe(const navvi_types::Guidance& guidance) {
   Way way{guidance.stamp, guidance.state, guidance.blocked_by, std::nullopt};

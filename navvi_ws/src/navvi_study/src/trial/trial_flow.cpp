@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace navvi_study::trial {
-namespace {
 
 constexpr double kSimulatorLost = 5.0;             // s, without odometry
 constexpr double kGuidanceLost = 10.0;             // s
@@ -14,8 +13,6 @@ constexpr double kSilent = 1.0;                    // s, of a part that a signal
 constexpr std::int64_t kTimeBack = 1'000'000'000;  // ns
 constexpr double kGoalAgain = 2.0;                 // s, before a goal is sent again
 constexpr int kGoalTries = 3;
-
-}  // namespace
 
 void GoalTries::sent_elsewhere(double time) {
   tries_ = 1;

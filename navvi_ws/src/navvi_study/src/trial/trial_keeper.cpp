@@ -11,7 +11,6 @@
 
 namespace navvi_study::trial {
 namespace fs = std::filesystem;
-namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;  // ns
 constexpr double kSilent = 1.0;                  // s
@@ -19,8 +18,6 @@ constexpr double kSayAgain = 5.0;                // s, between sentences on what
 constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
 constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
 constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
-
-}  // namespace
 
 std::optional<std::size_t> TrialKeeper::Job::at(const Eigen::Vector2d& goal) const {
   std::vector<std::size_t> order = left;  // of two places at one spot that which is still to come

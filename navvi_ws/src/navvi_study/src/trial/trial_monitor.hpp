@@ -14,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "navvi_config/field.hpp"
 #include "record/row.hpp"
 #include "trial/trial_flow.hpp"
 

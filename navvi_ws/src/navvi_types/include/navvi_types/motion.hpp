@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -26,6 +27,14 @@ struct Velocity {
   double linear = 0.0;   ///< m/s, forward
   double angular = 0.0;  ///< rad/s, counter-clockwise
 };
+
+/// `now` moved towards `target`, by at most `faster` where its size grows, `slower` where it falls.
+/// A change of direction brakes first.
+[[nodiscard]] inline double approach(double now, double target, double faster, double slower) {
+  const double goal = now * target < 0.0 ? 0.0 : target;
+  const double limit = std::abs(goal) > std::abs(now) ? faster : slower;
+  return now + std::clamp(goal - now, -limit, limit);
+}
 
 /// nav_msgs/Odometry on the floor.
 struct Odometry {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <navvi_config/field.hpp>
-
 namespace navvi_sim::traffic {
 
 /// How things with a route behave (R-SIM-3).
