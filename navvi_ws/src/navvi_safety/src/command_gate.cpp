@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace navvi_safety {
 namespace {
@@ -95,13 +96,16 @@ void CommandGate::stop(Reason reason) {
 }
 
 navvi_types::Velocity CommandGate::update(const Instant& now) {
+  turned_ += wheels_.angular * std::clamp(now.sim - updated_, 0.0, config_.timeout);
+  updated_ = now.sim;
   navvi_types::Velocity wheels = assistance_.assist(held_or_driven(now), now.sim);
   const bool unknown = zone_at_ && !younger_than(config_.kZoneStale, *zone_at_, now);
   const double most = unknown ? config_.kZoneLost : navvi_types::kFastest;
-  wheels.linear = std::clamp(wheels.linear, -std::min(zone_.backward, most),
-                             std::min(zone_.forward, most));
+  double ahead = zone_.forward, behind = zone_.backward;
+  if (std::cos(turned_) < 0.0) std::swap(ahead, behind);
+  wheels.linear = std::clamp(wheels.linear, -std::min(behind, most), std::min(ahead, most));
   wheels.angular = std::clamp(wheels.angular, -config_.max_angular, config_.max_angular);
-  return wheels;
+  return wheels_ = wheels;
 }
 
 navvi_types::Velocity CommandGate::held_or_driven(const Instant& now) {

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <navvi_types/angles.hpp>
 
 namespace navvi_safety {
 namespace {
 
+using navvi_types::kPi;
 using navvi_types::Velocity;
 
 constexpr double kStep = 0.02;  // s
@@ -394,6 +396,22 @@ TEST_F(Gate, drives_no_faster_than_zones_allow_and_slowly_where_they_are_silent)
   gate_.limit(zone, now_);
   hold(2.0, Velocity{1.0, 0.0});
   EXPECT_EQ(wheels_.linear, 0.0) << "held at a border, it starts for no silence";
+}
+
+TEST_F(Gate, a_border_stays_where_it_was_when_zones_are_silent_and_the_robot_turns) {
+  start();
+  navvi_types::ZoneState zone;
+  zone.forward = 0.0;
+  gate_.limit(zone, now_);
+  hold(0.6, Velocity{});
+  hold(kPi / 2.0, Velocity{0.0, 2.0});
+  hold(0.1, Velocity{0.5, 0.0});
+  EXPECT_EQ(wheels_.linear, CommandGateConfig::kZoneLost) << "away from it";
+  hold(0.1, Velocity{-0.5, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0) << "into it";
+  hold(kPi / 2.0, Velocity{0.0, -2.0});
+  hold(0.1, Velocity{0.5, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0) << "before it again";
 }
 
 }  // namespace

@@ -80,10 +80,12 @@ class CommandGate {
     assistance_.see(nearby, now.sim);
   }
 
-  /// What zones allow. Where no newer one comes for kZoneStale, kZoneLost at most from then on.
+  /// What zones allow. Where no newer one comes for kZoneStale, kZoneLost at most from then on;
+  /// after half a turn, what was allowed ahead is allowed behind.
   void limit(const navvi_types::ZoneState& zone, const Instant& now) {
     zone_ = zone;
     zone_at_ = now;
+    turned_ = 0.0;
   }
 
   /// The velocity for the wheels at `now`. Call it at every control step.
@@ -111,6 +113,9 @@ class CommandGate {
   Assistance assistance_;
   navvi_types::ZoneState zone_;
   std::optional<Instant> zone_at_;
+  navvi_types::Velocity wheels_;  ///< as of the last update
+  double updated_ = 0.0;          ///< s of ROS time, when it was
+  double turned_ = 0.0;           ///< rad, since zone_at_, as the wheels were told
   navvi_types::Velocity command_;
   std::optional<Instant> last_valid_;
   std::optional<Instant> neutral_since_;
