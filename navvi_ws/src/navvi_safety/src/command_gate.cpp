@@ -90,7 +90,7 @@ navvi_types::LinkState CommandGate::link_state(std::int64_t stamp) const {
 
 void CommandGate::stop(Reason reason) {
   last_valid_.reset();
-  if (state_ == State::waiting) return;
+  if (state_ == State::waiting && reason != Reason::emergency_stop) return;
   state_ = State::stopped;
   reason_ = reason;
 }

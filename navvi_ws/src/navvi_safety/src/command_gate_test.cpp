@@ -122,6 +122,9 @@ TEST_F(Gate, stops_when_it_is_asked_to_until_the_stick_was_neutral) {
 }
 
 TEST_F(Gate, C8_does_not_move_while_an_emergency_stop_lasts) {
+  gate_.stop(CommandGate::Reason::emergency_stop);
+  EXPECT_EQ(gate_.state(), CommandGate::State::stopped) << "also before the first command";
+  EXPECT_EQ(gate_.reason(), CommandGate::Reason::emergency_stop);
   start();
   // The stick is released in it, which counts for nothing, and pushed again.
   for (const double stick : {1.0, 0.0, 1.0}) {
@@ -138,7 +141,7 @@ TEST_F(Gate, C8_does_not_move_while_an_emergency_stop_lasts) {
   EXPECT_EQ(wheels_.linear, 1.0);
 }
 
-TEST_F(Gate, that_never_ran_waits_whatever_it_is_asked) {
+TEST_F(Gate, that_never_ran_waits_where_the_clock_jumps) {
   gate_.stop(CommandGate::Reason::clock_jumped);
   EXPECT_EQ(gate_.state(), CommandGate::State::waiting);
   EXPECT_EQ(gate_.reason(), CommandGate::Reason::none);

@@ -125,6 +125,45 @@ class Relay : public testing::Test {
   ros::Subscriber wheels_, state_, log_;
 };
 
+TEST_F(Relay, C8_stands_while_the_emergency_stop_is_pressed_and_until_the_stick_was_neutral) {
+  ros::NodeHandle node;
+  ros::Publisher emergency = node.advertise<std_msgs::Bool>("emergency_stop", 1);
+  const auto press = [&emergency](bool pressed) {
+    std_msgs::Bool msg;
+    msg.data = pressed;
+    emergency.publish(msg);
+  };
+  ASSERT_TRUE(wait_until([&] { return emergency.getNumSubscribers() > 0; }));
+  press(true);
+  EXPECT_TRUE(wait_until([&] { return drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP; }))
+      << "before the first command, as no other test has sent one yet";
+  EXPECT_EQ(drive_.state, navvi_msgs::DriveState::STOPPED);
+  press(false);
+  start();
+  press(true);
+  const auto pressed = navvi_test::Clock::now();
+  EXPECT_TRUE(drive_until(0.7, [&] {
+    return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP;
+  }));
+  navvi_test::expect_within(250, pressed, "stopped");
+  // Neither a held nor a neutral stick moves the wheels, nor does one that is pushed after it.
+  const auto stand = [&](double stick, double seconds) {
+    const ros::WallTime begin = ros::WallTime::now();
+    EXPECT_TRUE(drive_until(stick, [&] {
+      EXPECT_EQ(speed_, 0.0);
+      return (ros::WallTime::now() - begin).toSec() > seconds;
+    }));
+  };
+  for (const double stick : {0.7, 0.0, 0.7}) stand(stick, 0.6);
+  press(false);
+  stand(0.7, 0.6);
+  EXPECT_EQ(drive_.reason, navvi_msgs::DriveState::EMERGENCY_STOP) << "until it was neutral";
+  start(0.6);
+  for (const bool on : {true, false}) press(on);  // within one step
+  EXPECT_TRUE(
+      drive_until(0.6, [&] { return drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP; }));
+}
+
 TEST_F(Relay, stops_the_wheels_when_only_bad_commands_come) {
   start();
   EXPECT_TRUE(drive_until(std::numeric_limits<double>::quiet_NaN(), [&] {
@@ -152,40 +191,6 @@ TEST_F(Relay, M2_wants_a_driver_that_has_connected_anew_to_be_neutral_first) {
            logged_.find("by another connection") != logged_.npos;
   }));
   start(0.6);
-}
-
-TEST_F(Relay, C8_stands_while_the_emergency_stop_is_pressed_and_until_the_stick_was_neutral) {
-  ros::NodeHandle node;
-  ros::Publisher emergency = node.advertise<std_msgs::Bool>("emergency_stop", 1);
-  const auto press = [&emergency](bool pressed) {
-    std_msgs::Bool msg;
-    msg.data = pressed;
-    emergency.publish(msg);
-  };
-  ASSERT_TRUE(wait_until([&] { return emergency.getNumSubscribers() > 0; }));
-  start();
-  press(true);
-  const auto pressed = navvi_test::Clock::now();
-  EXPECT_TRUE(drive_until(0.7, [&] {
-    return speed_ == 0.0 && drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP;
-  }));
-  navvi_test::expect_within(250, pressed, "stopped");
-  // Neither a held nor a neutral stick moves the wheels, nor does one that is pushed after it.
-  const auto stand = [&](double stick, double seconds) {
-    const ros::WallTime begin = ros::WallTime::now();
-    EXPECT_TRUE(drive_until(stick, [&] {
-      EXPECT_EQ(speed_, 0.0);
-      return (ros::WallTime::now() - begin).toSec() > seconds;
-    }));
-  };
-  for (const double stick : {0.7, 0.0, 0.7}) stand(stick, 0.6);
-  press(false);
-  stand(0.7, 0.6);
-  EXPECT_EQ(drive_.reason, navvi_msgs::DriveState::EMERGENCY_STOP) << "until it was neutral";
-  start(0.6);
-  for (const bool on : {true, false}) press(on);  // within one step
-  EXPECT_TRUE(
-      drive_until(0.6, [&] { return drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP; }));
 }
 
 TEST_F(Relay, P3_obeys_no_parameter_that_is_set_while_it_runs) {

@@ -72,7 +72,8 @@ class CommandGate {
   void receive(const Command& command, const Instant& now);
 
   /// Stops the wheels, for a reason beside the commands. They stand for as long as this is called
-  /// before each update, and until the command was neutral after that.
+  /// before each update, and until the command was neutral after that. A gate that waits is stopped
+  /// by an emergency stop alone.
   void stop(Reason reason);
 
   /// What is near the robot. \param nearby  in base_link
