@@ -349,6 +349,37 @@ TEST_F(PerceptionNodeTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_n
   EXPECT_FALSE(near(-0.35, 0.35)) << "the mast";
 }
 
+TEST_F(PerceptionNodeTest, H2_a_mover_whose_lidar_fell_silent_is_near_until_sensing_is_lost) {
+  has_rear = true;
+  disc_y_ = -2.0;
+  const auto holds_mover = [this] {
+    return std::any_of(near_->things.begin(), near_->things.end(),
+                       [](const auto& thing) { return thing.moving; });
+  };
+  ASSERT_TRUE(until([&] { return near_ && holds_mover(); }));
+  spoil_ = [](auto& msg) { msg.ranges.clear(); };
+  const ros::WallTime silent = ros::WallTime::now();
+  int told = 0;
+  EXPECT_TRUE(until([&] {
+    const double since = (ros::WallTime::now() - silent).toSec();
+    if (near_) {
+      EXPECT_TRUE(holds_mover()) << since;
+      ++told;
+      near_.reset();
+    }
+    return since > 3.0;
+  }));
+  EXPECT_GE(told, 5) << "one frame that is missing takes no sight";
+}
+
+TEST_F(PerceptionNodeTest, H2_says_why_the_messages_of_one_of_its_sensors_are_dropped) {
+  has_rear = true;
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
+  spoil_rear_ = [](auto& msg) { msg.angle_increment = kNone; };
+  EXPECT_TRUE(until([this] { return sensing_.find("rear/scan: its angles") != std::string::npos; }))
+      << sensing_;
+}
+
 TEST_F(PerceptionNodeTest, H2_loses_sensing_where_one_of_its_sensors_falls_silent) {
   has_camera = has_rear = true;
   for (bool* const sensor : {&has_rear, &has_camera}) {

@@ -13,6 +13,8 @@ struct TrackConfig {
   /// m, farther from where it was expected a thing is another one
   static constexpr double kGate = 0.9;
   static constexpr double kKeep = 1.0;  ///< s, a thing is expected that is not seen
+  /// s, without a sight of its sensor: longer than it takes to find that one silent, though late
+  static constexpr double kTold = 1.5;
   static constexpr int kSightings = 3;  ///< after which a thing is told
   double noise = 0.08;   ///< m, standard deviation of a measured middle
   static constexpr double kAgility = 1.5;  ///< m/s^2, standard deviation of an acceleration
@@ -56,10 +58,10 @@ class Tracker {
                                   const std::vector<Eigen::Vector3d>& points, double time,
                                   std::uint32_t& next);
   [[nodiscard]] const std::vector<Track>& now() const { return tracks_; }
-  /// True if it is to be told. \param time  s; the sensor may have been silent since it was seen
+  /// True if it is to be told. \param time  s; the sensor may be silent by then
   [[nodiscard]] bool sure(const Track& track, double time) const {
     return track.sightings >= config_.kSightings && !track.settled &&
-           time - track.seen <= config_.kKeep;
+           time - time_ <= config_.kTold;
   }
   /// True if it moves now.
   [[nodiscard]] bool drives(const Track& track) const {

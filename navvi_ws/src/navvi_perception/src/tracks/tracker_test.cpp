@@ -31,7 +31,7 @@ TEST_F(TrackerTest, tells_a_thing_after_its_third_sighting) {
   look(1.2, {{1.0, 1.0}});
   EXPECT_TRUE(tracker_.sure(tracker_.now()[0], 1.2));
   EXPECT_FALSE(tracker_.drives(tracker_.now()[0]));
-  EXPECT_FALSE(tracker_.sure(tracker_.now()[0], 2.3)) << "not seen for longer than a second";
+  EXPECT_FALSE(tracker_.sure(tracker_.now()[0], 2.8)) << "its sensor is silent";
 }
 
 TEST_F(TrackerTest, two_that_pass_each_other_keep_their_numbers_and_velocities) {
