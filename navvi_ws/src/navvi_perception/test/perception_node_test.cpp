@@ -8,6 +8,7 @@
 #include <octomap_msgs/Octomap.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -21,6 +22,8 @@
 #include <optional>
 #include <utility>
 
+#include "measured.hpp"
+
 namespace navvi_perception {
 namespace {
 
@@ -29,11 +32,13 @@ constexpr double kRoom = 3.0;       // m, from the robot to each of four walls
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 // Sensors beside the lidar ahead; one that the node has heard once must go on, in later tests too.
 bool has_camera = false, has_rear = false;
+double clock_ahead = 0.0;  // s, of the wall clock
 
 /// A robot at (10, 0) in a square room; its lidar sits 0.2 m ahead of its middle.
 class PerceptionNodeTest : public testing::Test {
  protected:
   PerceptionNodeTest() {
+    clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
     scans_ = node_.advertise<sensor_msgs::LaserScan>("scan", 5);
     rear_scans_ = node_.advertise<sensor_msgs::LaserScan>("rear/scan", 5);
     clouds_ = node_.advertise<sensor_msgs::PointCloud2>("points", 5);
@@ -48,6 +53,12 @@ class PerceptionNodeTest : public testing::Test {
         }));
     timer_ = node_.createWallTimer(ros::WallDuration(0.1),
                                    [this](const ros::WallTimerEvent&) { play(); });
+    clock_timer_ = node_.createWallTimer(
+        ros::WallDuration(0.01), [this](const ros::WallTimerEvent&) {
+          rosgraph_msgs::Clock now;
+          now.clock.fromSec(ros::WallTime::now().toSec() + clock_ahead);
+          clock_.publish(now);
+        });
   }
 
   template <typename Message>
@@ -56,9 +67,10 @@ class PerceptionNodeTest : public testing::Test {
         topic, 10, [&into](const typename Message::ConstPtr& msg) { into = *msg; });
   }
 
-  void frame(const char* parent, const char* child, double x, double z) {
+  /// \param later  s, by which its stamp is ahead
+  void frame(const char* parent, const char* child, double x, double z, double later = 0.0) {
     geometry_msgs::TransformStamped transform;
-    transform.header.stamp = ros::Time::now();
+    transform.header.stamp = ros::Time::now() + ros::Duration(later);
     transform.header.frame_id = parent;
     transform.child_frame_id = child;
     transform.transform.translation.x = x;
@@ -134,6 +146,15 @@ class PerceptionNodeTest : public testing::Test {
     rear_scans_.publish(rear);
   }
 
+  /// Sets the clock back, s, and waits until the node has seen something since.
+  void set_back(double by) {
+    const ros::Time before = ros::Time::now();
+    clock_ahead -= by;
+    ASSERT_TRUE(until([&] {
+      return obstacles_ && (before - obstacles_->header.stamp).toSec() > 0.5 * by;
+    }));
+  }
+
   bool until(const std::function<bool()>& done) {
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPatience);
     while (!done() && ros::WallTime::now() < end && ros::ok())
@@ -142,9 +163,9 @@ class PerceptionNodeTest : public testing::Test {
   }
 
   ros::NodeHandle node_;
-  ros::Publisher scans_, rear_scans_, clouds_, bumper_;
+  ros::Publisher clock_, scans_, rear_scans_, clouds_, bumper_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::WallTimer timer_;
+  ros::WallTimer timer_, clock_timer_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<double> disc_y_;  ///< m, in laser
   std::function<void(sensor_msgs::LaserScan&)> spoil_, spoil_rear_;
@@ -158,13 +179,7 @@ class PerceptionNodeTest : public testing::Test {
 
 TEST_F(PerceptionNodeTest, T4_a_transform_from_the_future_keeps_out_none_that_follow) {
   ASSERT_TRUE(until([this] { return near_.has_value(); }));
-  geometry_msgs::TransformStamped ahead;
-  ahead.header.stamp = ros::Time::now() + ros::Duration(1e6);
-  ahead.header.frame_id = "map";
-  ahead.child_frame_id = "base_link";
-  ahead.transform.translation.x = 14.0;
-  ahead.transform.rotation.w = 1.0;
-  broadcaster_.sendTransform(ahead);
+  frame("map", "base_link", 14.0, 0.0, 1e6);
   // What was seen before it may still be under way.
   const ros::WallTime sent = ros::WallTime::now();
   until([&] { return (ros::WallTime::now() - sent).toSec() > 1.0; });
@@ -172,6 +187,15 @@ TEST_F(PerceptionNodeTest, T4_a_transform_from_the_future_keeps_out_none_that_fo
   disc_y_ = -2.0;
   ASSERT_TRUE(until([this] { return obstacles_ && !obstacles_->obstacles.empty(); }));
   EXPECT_NEAR(obstacles_->obstacles[0].pose.position.x, 11.5, 0.3) << "from where the robot is";
+}
+
+TEST_F(PerceptionNodeTest, T1_what_is_near_and_what_moves_is_known_within_1_s_of_a_jump_back) {
+  ASSERT_TRUE(until([this] { return near_ && obstacles_; }));
+  const auto set = navvi_test::Clock::now();
+  set_back(97.0);
+  near_.reset();
+  EXPECT_TRUE(until([this] { return near_.has_value(); }));
+  navvi_test::expect_within(1000, set, "sensed again");
 }
 
 TEST_F(PerceptionNodeTest, H1_uses_scans_as_drivers_send_them) {
@@ -281,6 +305,7 @@ TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_where_the_robot_is_lost_is_a
   std_msgs::Bool pressed;
   bumper_.publish(pressed);
   lost_ = true;
+  frame("map", "base_link", 14.0, 0.0, 1.0);  // from the future, so that no place is known
   near_.reset();
   sensing_.clear();
   ASSERT_TRUE(until([this] { return sensing_.find("not sensed") != std::string::npos; }));
@@ -394,6 +419,21 @@ TEST_F(PerceptionNodeTest, H2_loses_sensing_where_one_of_its_sensors_falls_silen
     *sensor = true;
     near_.reset();
   }
+  EXPECT_TRUE(until([this] { return near_.has_value(); }));
+}
+
+TEST_F(PerceptionNodeTest, T1_a_sensor_that_is_silent_is_missed_when_time_has_jumped_back_too) {
+  has_rear = true;
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
+  has_rear = false;
+  sensing_.clear();
+  ASSERT_TRUE(until([this] { return sensing_.find("rear/scan: no") != std::string::npos; }));
+  near_.reset();
+  set_back(2.0);
+  const ros::WallTime begin = ros::WallTime::now();
+  EXPECT_TRUE(until([&] { return (ros::WallTime::now() - begin).toSec() > 3.0; }));
+  EXPECT_FALSE(near_);
+  has_rear = true;
   EXPECT_TRUE(until([this] { return near_.has_value(); }));
 }
 

@@ -231,7 +231,10 @@ class PerceptionNode {
     if ((navvi_types::from_ns(last) - header.stamp).toSec() > SensorQueue::kOld) {
       ROS_WARN("Time jumped back; what was seen is forgotten.");
       perception_ = std::make_unique<see::Perception>(config_.core, prior_);
-      for (Sensor& one : sensors_) one.last = 0, one.taken = {};
+      for (Sensor& one : sensors_) {
+        one.last = 0;
+        if (!one.taken.isZero()) one.taken = ros::TIME_MIN;  // each that was heard must go on
+      }
     } else if (sight.stamp < last) {
       refuse(sensor, "a later one came before it");
       return false;
