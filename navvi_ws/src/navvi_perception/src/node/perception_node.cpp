@@ -123,7 +123,10 @@ class PerceptionNode {
       subscribers_.push_back(navvi_types::subscribe<Message>(
           node, topic, SensorQueue::kMost, from_msg,
           [this, sensor](const typename Message::ConstPtr& msg) { receive(sensor, msg); }, {},
-          [this, topic](const std::string& why) { count(topic, why); }));
+          [this, sensor](const std::string& why) {
+            sensors_[sensor].refused = why;
+            count(sensors_[sensor].topic, why);
+          }));
     }
   }
 
