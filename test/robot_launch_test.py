@@ -11,7 +11,7 @@ from sessions import ROOT, WORLD, Programs, eventually, roslaunch, summary
 PLACES = {"packing table": (0.5, 0.5), "gate 4": (-0.5, 0.25)}
 # Parameters of the last person's session, on a master that outlives it.
 LEFT = {"/feedback_node/drive/stick": "right", "/trial_node/locked": "true", "/trial_node/study/condition": "other", "/nav_node/mesh/climb": "0.3",
-        "/relay_node/max_linear": "0.1", "/perception_node/cloud_rate": "1"}
+        "/relay_node/max_linear": "0.1", "/perception_node/cloud_rate": "5"}
 # Presses buttons of the menu, by nothing but the words that follow each press: until a goal is chosen, or a place is remembered.
 BY_EAR = """
 import json, queue, sys

@@ -63,7 +63,7 @@ struct NodeConfig {
         "file .bt or .ot with the OctoMap of what stands for good, used in place of the topic map");
     visit(bumper, "bumper", Any{}, "",
           "topic with std_msgs/Bool, true while something is touched; empty: contacts are unknown");
-    visit(cloud_rate, "cloud_rate", Range{0.1, 100.0}, "Hz", "clouds that come faster are skipped");
+    visit(cloud_rate, "cloud_rate", Range{3.0, 100.0}, "Hz", "clouds that come faster are skipped");
   }
 };
 
