@@ -404,7 +404,8 @@ Guidance Navigator::guidance(double time) const {
     out.detail = "no fresh pose of the robot";
   } else if (goal_.elsewhere) {
     out.state = Guidance::State::pose_stale;
-    out.detail = "the pose is at the goal, and odometry is not";
+    out.detail = std::string("the pose is at the goal, and odometry is ") +
+                 (observation_.velocity_fresh(time) ? "not" : "silent");
   } else if (out.state == Guidance::State::following) {
     report_path(out);
   }

@@ -60,6 +60,8 @@ void Observation::update(double time) {
     obstacles_.clear();
     obstacles_lost_ = true;
   }
+  if (!velocity_time_) velocity_time_ = time;
+  if (!velocity_fresh(time)) velocity_ = {};
   const double elapsed = updated_ ? std::clamp(time - *updated_, 0.0, 1.0) : 0.0;
   updated_ = time;
   if (speed() > kMoving) pace_ += (speed() - pace_) * (1.0 - std::exp(-elapsed / kMemory));
@@ -67,6 +69,7 @@ void Observation::update(double time) {
 
 void Observation::reset_times() {
   pose_.reset();
+  velocity_time_.reset();
   things_.clear();
   moved_.clear();
   obstacles_.clear();

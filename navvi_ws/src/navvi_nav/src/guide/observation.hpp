@@ -10,7 +10,8 @@ namespace navvi_nav::guide {
 
 struct ObservationConfig {
   int most_cylinders = 4;
-  static constexpr double kPoseTimeout = 1.0;      ///< s, an older pose of the robot is stale
+  /// s, an older pose or velocity of the robot is stale
+  static constexpr double kPoseTimeout = 1.0;
   static constexpr double kObstacleTimeout = 1.0;  ///< s, older obstacles are forgotten
 
   void describe(navvi_config::Visitor& visit);
@@ -27,10 +28,14 @@ class Observation {
   /// \return false for a pose from the future, which is not taken: by a clock that is ahead it
   /// looks fresh for as long as that clock is ahead
   bool set_pose(const Pose2& pose, double stamp, double now);
-  void set_velocity(const navvi_types::Velocity& velocity) { velocity_ = velocity; }
+  /// By odometry.
+  void set_velocity(const navvi_types::Velocity& velocity) {
+    velocity_ = velocity;
+    velocity_time_.reset();
+  }
   /// \param ahead  s, by which guidance is ahead of the robot
   void set_foresight(double ahead) { foresight_ = ahead; }
-  /// Drops obstacles that are too old, and measures the pace.
+  /// Drops obstacles and a velocity that are too old, and measures the pace.
   void update(double time);
   void reset_times();
 
@@ -41,6 +46,9 @@ class Observation {
   /// told now arrives; where it was last, without foresight.
   [[nodiscard]] std::optional<Pose2> foreseen() const;
   [[nodiscard]] double speed() const { return velocity_.linear; }  ///< m/s, forward
+  [[nodiscard]] bool velocity_fresh(double time) const {
+    return !velocity_time_ || time - *velocity_time_ <= config_.kPoseTimeout;
+  }
   /// m/s, > 0: mean forward speed over the times when the robot moved.
   [[nodiscard]] double pace() const { return pace_; }
   [[nodiscard]] const std::vector<Cylinder>& obstacles() const { return obstacles_; }
@@ -68,6 +76,7 @@ class Observation {
   std::optional<Pose2> pose_;
   double pose_time_ = 0.0;
   navvi_types::Velocity velocity_;
+  std::optional<double> velocity_time_;  ///< s, of the first update with it
   double foresight_ = 0.0;  ///< s
   double pace_ = 0.7;  ///< before the robot moved
   std::optional<double> updated_;

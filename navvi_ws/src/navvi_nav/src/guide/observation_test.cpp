@@ -53,6 +53,18 @@ TEST(Observation, T1_gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps
   EXPECT_FALSE(observation.pose(10.0));
 }
 
+TEST(Observation, foresees_no_motion_by_a_velocity_that_is_older_than_1_s) {
+  Observation observation{ObservationConfig{}};
+  observation.set_foresight(2.0);
+  observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0);
+  observation.set_velocity({0.5, 0.0});
+  observation.update(10.0);
+  observation.update(11.0);
+  EXPECT_EQ(observation.foreseen()->position.x(), 2.0);
+  observation.update(11.1);
+  EXPECT_EQ(observation.foreseen()->position.x(), 1.0);
+}
+
 TEST(Observation, T4_a_pose_from_the_future_is_no_pose) {
   Observation observation{ObservationConfig{}};
   EXPECT_TRUE(observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0));
