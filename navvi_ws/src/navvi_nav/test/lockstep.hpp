@@ -49,21 +49,25 @@ class Lockstep : public testing::Test {
   }
   void tick(int times = 1) {
     for (int i = 0; i < times; ++i) {
-      time_ += kTick;
-      if (has_pose_)
-        navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_,
-                            time_);
-      navigator_.set_velocity({speed_, 0.0});
-      if (has_obstacles_) {
-        std::vector<MovingThing> things = things_;
-        for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
-        navigator_.set_obstacles(things, time_);
-      }
-      if (const auto request = navigator_.update(time_)) {
+      if (const auto request = ask()) {
         last_ = planner_.answer(*request);
         navigator_.deliver(*last_, time_);
       }
     }
+  }
+  /// A tick. \returns what is asked of the planner in it
+  std::optional<plan::PlanRequest> ask() {
+    time_ += kTick;
+    if (has_pose_)
+      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_,
+                          time_);
+    if (has_odometry_) navigator_.set_velocity({speed_, 0.0});
+    if (has_obstacles_) {
+      std::vector<MovingThing> things = things_;
+      for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
+      navigator_.set_obstacles(things, time_);
+    }
+    return navigator_.update(time_);
   }
   /// The clock is set.
   void jump(double by) {
@@ -104,6 +108,7 @@ class Lockstep : public testing::Test {
   double height_ = 0.0;  // of the robot
   bool has_pose_ = true;
   bool has_obstacles_ = true;
+  bool has_odometry_ = true;
   double speed_ = 0.5;
   double time_ = 100.0;
 };

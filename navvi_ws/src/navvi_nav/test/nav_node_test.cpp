@@ -13,12 +13,14 @@
 #include <octomap_msgs/Octomap.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "measured.hpp"
 #include "small_world.hpp"
@@ -27,6 +29,7 @@ namespace navvi_nav {
 namespace {
 
 constexpr double kPatience = 60.0;  // s
+double clock_ahead = 0.0;           // s, of the wall clock
 
 class NavNodeTest : public testing::Test {
  protected:
@@ -45,6 +48,13 @@ class NavNodeTest : public testing::Test {
         node_.subscribe<visualization_msgs::MarkerArray>(
             "navvi/navmesh", 1,
             [this](const visualization_msgs::MarkerArray::ConstPtr& msg) { mesh_ = *msg; })};
+    clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 10);
+    clock_timer_ = node_.createWallTimer(
+        ros::WallDuration(0.01), [this](const ros::WallTimerEvent&) {
+          rosgraph_msgs::Clock now;
+          now.clock.fromSec(ros::WallTime::now().toSec() + clock_ahead);
+          clock_.publish(now);
+        });
     heartbeat_ = node_.createWallTimer(ros::WallDuration(0.05),
                                        [this](const ros::WallTimerEvent&) { play_robot(); });
     EXPECT_TRUE(until([this] { return goal_.getNumSubscribers() > 0; }));
@@ -117,9 +127,9 @@ class NavNodeTest : public testing::Test {
   }
 
   ros::NodeHandle node_;
-  ros::Publisher map_, obstacles_, odometry_, goal_;
+  ros::Publisher clock_, map_, obstacles_, odometry_, goal_;
   std::vector<ros::Subscriber> subscribers_;
-  ros::WallTimer heartbeat_;
+  ros::WallTimer clock_timer_, heartbeat_;
   tf2_ros::TransformBroadcaster broadcaster_;
   navvi_msgs::Obstacles played_;
   std::function<void()> moves_;  ///< brings played_ up to date
@@ -321,6 +331,37 @@ TEST_F(NavNodeTest, T4_a_transform_1_s_ahead_is_no_pose_when_its_time_has_come_e
   });
   EXPECT_GT(nearest, 12.0) << "from where the robot is";
   EXPECT_EQ(guidance_.state, navvi_msgs::Guidance::FOLLOWING);
+}
+
+TEST_F(NavNodeTest, T1_knows_pose_and_obstacles_within_1_s_of_a_jump_back_and_goes_on) {
+  ASSERT_TRUE(lead());
+  poses_ = false;
+  bool corrects = true;  // the localizer, once; odometry all the time
+  moves_ = [&] {
+    geometry_msgs::TransformStamped place = robot_at(pose_x_, ros::Time::now());
+    place.child_frame_id = "odom";
+    if (std::exchange(corrects, false)) broadcaster_.sendTransform(place);
+    place = robot_at(0.0, place.header.stamp);
+    place.header.frame_id = "odom";
+    place.transform.translation.y = 0.0;
+    broadcaster_.sendTransform(place);
+  };
+  ASSERT_TRUE(until([&] { return !corrects; }));
+  const ros::Time before = ros::Time::now();
+  clock_ahead -= 97.0;
+  ASSERT_TRUE(until([&] {
+    return guidance_.state == navvi_msgs::Guidance::POSE_STALE && guidance_.header.stamp < before;
+  }));
+  corrects = true;
+  const auto sent = navvi_test::Clock::now();
+  const auto leads = [this] {
+    return guidance_.state == navvi_msgs::Guidance::FOLLOWING && guidance_.detail.empty();
+  };
+  EXPECT_TRUE(until(leads));
+  navvi_test::expect_within(1000, sent, "led again");
+  const ros::WallTime led = ros::WallTime::now();
+  EXPECT_TRUE(until([&] { return (ros::WallTime::now() - led).toSec() > 3.0; }));
+  EXPECT_TRUE(leads()) << "by the place that the localizer told last";
 }
 
 TEST_F(NavNodeTest, T4_an_arrival_that_odometry_contradicts_is_a_lost_position) {

@@ -127,6 +127,11 @@ TEST_F(Lockstep, T4_arrives_only_where_odometry_agrees) {
   tick(20);
   EXPECT_EQ(status().state, Guidance::State::pose_stale);
   EXPECT_EQ(status().detail, "the pose is at the goal, and odometry is not");
+  has_odometry_ = false;
+  tick(22);
+  EXPECT_EQ(status().state, Guidance::State::pose_stale);
+  EXPECT_EQ(status().detail, "the pose is at the goal, and odometry is silent");
+  has_odometry_ = true;
   robot_.position = {11, 5};
   tick(2);
   EXPECT_EQ(status().state, Guidance::State::following) << "the pose was a false one";
@@ -166,6 +171,24 @@ TEST_F(Lockstep, plans_around_an_obstacle_that_cuts_the_path) {
   EXPECT_EQ(status().state, Guidance::State::following);
   for (const Point point : points_along(navigator_.path(), 0.02))
     EXPECT_GE(distance(point, middle), 0.75 - 1e-6);
+}
+
+TEST_F(Lockstep, N2_hides_a_path_that_must_change_when_no_plan_came_in_time) {
+  lead({14, 5});
+  tick(10);
+  const Path before = navigator_.path();
+  obstacles_ = {{1, 0.5 * (before[1] + before[2]), 0.4, {}}};
+  const auto asked = ask();
+  ASSERT_TRUE(asked && asked->goal);
+  for (int i = 0; i < 20; ++i) ASSERT_FALSE(ask()) << "the planner is at work";
+  EXPECT_EQ(status().state, Guidance::State::following);
+  EXPECT_EQ(navigator_.path(), before);
+  for (int i = 0; i < 2; ++i) ASSERT_FALSE(ask());
+  EXPECT_EQ(status().state, Guidance::State::no_route);
+  EXPECT_EQ(status().detail, "no plan came in time");
+  EXPECT_TRUE(navigator_.path().empty());
+  navigator_.deliver(planner_.answer(*asked), time_);
+  EXPECT_EQ(status().state, Guidance::State::following) << "late, but there";
 }
 
 TEST_F(Lockstep, does_not_change_a_free_path_every_period) {
@@ -294,14 +317,9 @@ TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   navigator_.set_goal({14, 5});
   world_.box(6, 7, 0, 9, 10, 1.0);
   navigator_.set_map(message_of(world_));
-  const auto next = [&] {
-    time_ += kTick;
-    navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_, time_);
-    return navigator_.update(time_);
-  };
-  const auto map = next();
+  const auto map = ask();
   ASSERT_TRUE(map && map->brings_map());
-  const auto asked = next();
+  const auto asked = ask();
   ASSERT_TRUE(asked && asked->goal);
   const plan::PlanAnswer on_old = planner_.answer(*asked);
   navigator_.deliver(planner_.answer(*map), time_);
