@@ -164,6 +164,20 @@ TEST_F(GuideTest, L5_a_trial_node_that_is_halted_is_told_while_its_trial_runs) {
   EXPECT_GT(pass(1.0).command->linear, 0.5) << "by nobody who could let it go";
 }
 
+TEST_F(GuideTest, L5_a_trial_node_that_is_halted_before_its_trial_leaves_the_person_led) {
+  for (int times = 0; times < 2; ++times) {
+    guide_.take(TrialState{TrialState::State::ready}, time_);
+    drive_along(2.0, 2);
+  }
+  EXPECT_TRUE(said({CueKind::press, About::start}));
+  drive_along(2.0, 14);
+  EXPECT_TRUE(said(CueKind::record_lost));
+  told_.clear();
+  drive_along(2.0, 40);
+  EXPECT_FALSE(said({CueKind::press, About::start})) << "to nobody who could begin it";
+  EXPECT_TRUE(said(CueKind::direction));
+}
+
 TEST_F(GuideTest, an_emergency_stop_that_the_robot_alone_knows_of_is_told) {
   DriveState drive;
   drive.state = DriveState::State::stopped;

@@ -67,7 +67,7 @@ Observation Senses::observe(const Devices& devices, double dt, double time) {
   now.guidance = guidance_.value;
   now.turned = turned_;
   if (devices.robot) locate(now);
-  now.trial = trial_.state;
+  now.trial = trial_.holds() && !holds(time) ? TrialState::State::free : trial_.state;
   now.task = trial_.task;
   now.reached = trial_.place;
   now.notices = devices.states;
