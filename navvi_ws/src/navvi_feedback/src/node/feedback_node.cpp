@@ -57,6 +57,7 @@ class FeedbackNode {
                                                [this](const ros::WallTimerEvent&) { diagnose(); });
   }
 
+  [[nodiscard]] bool saved() const { return settings_.saved(); }
   void stop_wheels() { outlets_.stop_wheels(); }
   /// Leaves nothing running, driving or speaking.
   void finish() {
@@ -193,6 +194,6 @@ int main(int argc, char** argv) {
   return navvi_config::run_node<NodeConfig>([](const NodeConfig& config) {
     navvi_feedback::node::FeedbackNode node(config);
     navvi_feedback::node::spin(node);
-    return 0;
+    return node.saved() ? 0 : 1;
   });
 }

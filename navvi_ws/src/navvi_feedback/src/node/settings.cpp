@@ -23,16 +23,6 @@ void tell_master(const std::vector<std::string>& words) {
   }
 }
 
-std::vector<Content> cues_of(const std::vector<std::vector<person::Failure>>& all) {
-  std::vector<Content> cues;
-  for (const auto& failures : all)
-    for (const auto& [cue, detail] : failures) {
-      if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
-      cues.push_back(cue);
-    }
-  return cues;
-}
-
 }  // namespace
 
 Settings::Settings(NodeConfig& config)
@@ -81,6 +71,17 @@ void Settings::keep(const core::Output& told) {
     ROS_INFO("Found: feedback/%s", word.c_str());
     if (file_) saver_.save(word);
   }
+}
+
+std::vector<Content> Settings::cues_of(const std::vector<std::vector<person::Failure>>& all) {
+  std::vector<Content> cues;
+  for (const auto& failures : all)
+    for (const auto& [cue, detail] : failures) {
+      if (!detail.empty()) ROS_ERROR("%s", detail.c_str());
+      saved_ = saved_ && (found_.empty() || cue != Content(CueKind::settings, About::not_saved));
+      cues.push_back(cue);
+    }
+  return cues;
 }
 
 std::vector<Content> Settings::failures() {

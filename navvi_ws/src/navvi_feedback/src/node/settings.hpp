@@ -26,6 +26,8 @@ class Settings {
   [[nodiscard]] std::map<std::string, std::string> values() const;
   /// A person has a file, whose settings are in force.
   [[nodiscard]] bool loaded() const { return file_.has_value(); }
+  /// False once the file could not take what a lesson found.
+  [[nodiscard]] bool saved() const { return saved_; }
 
   /// \param word  such as "speaker/rate:=240"
   void change(const std::string& word);
@@ -39,12 +41,15 @@ class Settings {
   [[nodiscard]] std::vector<Content> finish();
 
  private:
+  std::vector<Content> cues_of(const std::vector<std::vector<person::Failure>>& all);
+
   NodeConfig& config_;
   std::optional<person::PersonFile> file_;
   person::Saver<std::string> saver_, master_;  ///< to the file; for this node, if it starts anew
   person::Saver<menu::NamedPlace> places_;
   std::string recorded_;            ///< of the lesson, as it is in the file
   std::vector<std::string> found_;  ///< by the lesson
+  bool saved_ = true;
 };
 
 }  // namespace navvi_feedback::node

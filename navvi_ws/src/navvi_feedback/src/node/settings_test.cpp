@@ -64,6 +64,7 @@ TEST(Settings, M1_are_in_force_at_once_where_no_master_answers) {
   EXPECT_EQ(config.speaker.rate, 260);
   EXPECT_EQ(config.feedback->lead, "words");
   EXPECT_EQ(failures, std::vector<Content>(1, {CueKind::settings, About::not_kept}));
+  EXPECT_TRUE(settings.saved()) << "no lesson found them";
 }
 
 TEST(Settings, that_a_lesson_found_and_cannot_be_saved_are_told_of) {
@@ -76,7 +77,9 @@ TEST(Settings, that_a_lesson_found_and_cannot_be_saved_are_told_of) {
   told.settings = {"sounds/turn/stopping_delay:=0.4"};
   settings.keep(told);
   settings.keep(told);
+  EXPECT_TRUE(settings.saved());
   EXPECT_EQ(settings.finish(), std::vector<Content>(1, {CueKind::settings, About::not_saved}));
+  EXPECT_FALSE(settings.saved());
 }
 
 }  // namespace
