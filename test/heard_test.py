@@ -67,3 +67,11 @@ def test_the_stopwatch_of_what_a_person_waits_for_sees_each_chain():
     bench = ROOT / "navvi_ws/src/navvi_study/bench/latency_bench"
     run = subprocess.run([bench, "--rounds=1"], capture_output=True, text=True, timeout=200)
     assert run.returncode == 0 and "never seen" not in run.stdout, run.stdout + run.stderr
+
+
+def test_T2_a_guide_without_a_clock_reports_so(master, tmp_path):
+    with Programs(master, tmp_path / "log") as programs:
+        programs.run("rosparam", "set", "/use_sim_time", "true")
+        programs.start("rosrun", "navvi_feedback", "feedback_node", "_input:=topic", "_speech:=false")
+        assert eventually(lambda: "There is no /clock yet." in programs.log.read_text(), 10)
+        programs.run("rosparam", "delete", "/use_sim_time")

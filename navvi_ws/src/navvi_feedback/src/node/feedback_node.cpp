@@ -144,7 +144,9 @@ class FeedbackNode {
                     speech_status(devices_.voice(), config_.speaker.voice),
                     latency_status(devices_.latencies(), guide_.learnt()), beat_status(beat_)};
     outlets_.send(array);
-    if (!ros::Time::isValid()) ROS_WARN_THROTTLE(5.0, "There is no /clock yet.");
+    // ROS_WARN_THROTTLE goes by the time that is missing.
+    clockless_ = ros::Time::isValid() ? 0 : clockless_ + 1;
+    if (clockless_ % 20 == 10) ROS_WARN("There is no /clock yet.");
   }
 
   NodeConfig config_;
@@ -161,6 +163,7 @@ class FeedbackNode {
   Inlets inlets_;
   ros::WallTimer tick_timer_, diagnostics_timer_;
 
+  int clockless_ = 0;       ///< reports so far without a time
   bool live_ = false;       ///< the stick, at the last beat
   double last_tick_ = 0.0;  // s, of now()
 };
