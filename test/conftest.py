@@ -1,5 +1,6 @@
 import os
 import socket
+import subprocess
 
 import pytest
 
@@ -51,3 +52,12 @@ def session(tmp_path):
     yield begin
     for one in begun:
         one.__exit__()
+
+
+@pytest.fixture
+def plugged(tmp_path):
+    """The environment of programs that find a game controller in memory, virtual_pad.cpp."""
+    library, flags = tmp_path / "pad.so", subprocess.check_output(["pkg-config", "--cflags", "sdl2"], text=True).split()
+    source = sessions.ROOT / "test/virtual_pad.cpp"
+    subprocess.run(["g++", "-std=c++17", "-shared", "-fPIC", *flags, "-o", library, source, "-ldl", "-pthread"], check=True)
+    return {"LD_PRELOAD": str(library), "VIRTUAL_PAD": str(tmp_path / "pad")}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause`, `intrude`, `forge`, `twin`, `clock` or
-`garbage`.
+"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause`, `intrude`, `forge`, `twin`, `clock`,
+`garbage`, or `lose`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
@@ -19,6 +19,8 @@ clock  publishes another time to /clock in a trial, with the stick pushed; print
        speed in the 3 s after that.
 garbage  sends what is no message to each port of each node, with the stick pushed half way; prints how many times, the slowest speed meanwhile,
        and by how many MB any node has grown.
+lose   LETTER PAD: as kill, by the pad in memory at the socket PAD; then it is lost as the letter says (virtual_pad.cpp), its stick held. Prints
+       the time in s until the wheels were commanded to zero, and until the robot stood still.
 """
 import os
 import pathlib
@@ -38,6 +40,8 @@ from rosgraph_msgs.msg import Clock
 from navvi_msgs.msg import Cue, DriveState, TrialState
 from sensor_msgs.msg import Joy
 
+from sessions import eventually
+
 
 class Stick:
     def __init__(self):
@@ -47,6 +51,7 @@ class Stick:
         rospy.Subscriber("/navvi/command", TwistStamped, lambda msg: setattr(self, "wanted", msg.twist.linear.x), tcp_nodelay=True)
         rospy.Subscriber("/navvi/drive_state", DriveState, self.note_stop, tcp_nodelay=True)
         self.joy = rospy.Publisher("/joy", Joy, queue_size=1)
+        self.link = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM)
 
     def note_motion(self, msg):
         self.speed, self.turn, self.stamp = msg.twist.twist.linear.x, msg.twist.twist.angular.z, msg.header.stamp
@@ -60,7 +65,10 @@ class Stick:
         """Holds the stick until the condition is met or the time is over; returns whether it was met."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
-            self.joy.publish(Joy(axes=[0.0, forward], buttons=[0, 0]))
+            if what == "lose":
+                self.to_pad(b"b", struct.pack("4f", 0.0, forward, 0.0, float(forward == 0.0)))  # Start begins the trial
+            else:
+                self.joy.publish(Joy(axes=[0.0, forward], buttons=[0, 0]))
             if until():
                 return True
             time.sleep(0.01)
@@ -71,6 +79,21 @@ class Stick:
             self.hold(0.0, lambda: False, 1.0)
             if self.hold(1.0, lambda: self.speed >= speed, 3.0):
                 return
+
+    def to_pad(self, *datagrams):
+        for datagram in datagrams:
+            try:
+                self.link.sendto(datagram, sys.argv[3])
+            except OSError:
+                pass  # it is not plugged in yet
+
+    def lose(self):
+        lost, times = time.monotonic(), []
+        self.to_pad(sys.argv[2].encode())
+        for done in (lambda: self.wanted == 0.0, lambda: abs(self.speed) < 1e-3):
+            eventually(done, 5.0)
+            times.append(time.monotonic() - lost)
+        return times
 
     def command(self, **twist):
         """With the robot's time."""
@@ -245,6 +268,6 @@ def ports(pid):
 if __name__ == "__main__":
     what = sys.argv[1]
     stick = Stick()
-    stick.push(0.8 if what in ("kill", "halt", "pause") else 0.3)
+    stick.push(0.8 if what in ("kill", "halt", "pause", "lose") else 0.3)
     pushed = stick.speed
     print(pushed, *(tuple() if what == "push" else getattr(stick, what)()))

@@ -14,8 +14,20 @@ def session(master, tmp_path):
         yield session
 
 
-def run_stick(session, what):
-    return session.person("stick.py", what).split()
+def run_stick(session, *words):
+    return session.person("stick.py", *words).split()
+
+
+@pytest.mark.parametrize("letter, bound", [("u", 0.25), ("f", 0.5)], ids=["J1_is_unplugged", "J2_falls_silent"])
+def test_a_pad_that_is_lost_at_full_speed_stops_the_robot(master, tmp_path, plugged, record_property, letter, bound):
+    with Programs(master | plugged | {"ALSOFT_DRIVERS": "null"}, tmp_path / "log") as programs:
+        programs.launch("live.launch", "operator:=pad", f"world:={WORLD}", "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false", "rviz:=false",
+                        f"out:={tmp_path}")
+        programs.env = master
+        speed, held, still = map(float, run_stick(programs, "lose", letter, plugged["VIRTUAL_PAD"]))
+    assert speed >= 0.8
+    within(record_property, "wheels held", held, bound)
+    within(record_property, "still", still, bound + 0.25)
 
 
 def test_C5_C7_only_the_guide_drives(session):

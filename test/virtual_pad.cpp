@@ -1,12 +1,15 @@
 // Preloaded into a program that looks for game controllers, it plugs in SDL's own virtual one. Its stick and buttons come by datagrams
-// to the socket $VIRTUAL_PAD: four floats, left and forward in [-1, 1], then 1 for each of the buttons A and Start that is down. What the
-// motors are told goes to $VIRTUAL_PAD.motors: two floats, left and right in [0, 1].
+// to the socket $VIRTUAL_PAD: four floats, left and forward in [-1, 1], then 1 for each of the buttons A and Start that is down; or one letter:
+// b its motion sensor begins to stream, f its link freezes, u it is unplugged. What the motors are told goes to $VIRTUAL_PAD.motors: two
+// floats, left and right in [0, 1].
 #include <SDL.h>
 #include <dlfcn.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <string>
@@ -15,6 +18,7 @@
 namespace {
 
 int g_socket = -1;
+std::atomic<bool> g_streams{false};
 
 /// SDL's function, of the program's own library.
 #define SDL(name) reinterpret_cast<decltype(&name)>(::dlsym(RTLD_NEXT, #name))
@@ -32,10 +36,34 @@ int on_rumble(void* motors, Uint16 left, Uint16 right) {
   return 0;
 }
 
+void stream(SDL_JoystickID pad) {
+  for (const auto push = SDL(SDL_PushEvent);; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
+    SDL_Event event = {};
+    event.csensor.type = SDL_CONTROLLERSENSORUPDATE;
+    event.csensor.which = pad;
+    event.csensor.sensor = SDL_SENSOR_GYRO;
+    if (g_streams) push(&event);
+  }
+}
+
+void unplug(SDL_JoystickID pad) {
+  for (int index = SDL(SDL_NumJoysticks)(); --index >= 0;)
+    if (SDL(SDL_JoystickGetDeviceInstanceID)(index) == pad) SDL(SDL_JoystickDetachVirtual)(index);
+}
+
 void obey(SDL_Joystick* pad) {
+  const SDL_JoystickID id = SDL(SDL_JoystickInstanceID)(pad);
+  std::thread(stream, id).detach();
   const auto set_axis = SDL(SDL_JoystickSetVirtualAxis);
   const auto set_button = SDL(SDL_JoystickSetVirtualButton);
-  for (std::array<float, 4> hand{}; ::recv(g_socket, hand.data(), sizeof(hand), 0) == sizeof(hand);) {
+  std::array<float, 4> hand{};
+  for (ssize_t size = 0; (size = ::recv(g_socket, hand.data(), sizeof(hand), 0)) > 0;) {
+    if (size == 1) {
+      const char letter = *reinterpret_cast<const char*>(hand.data());
+      g_streams = letter == 'b';
+      if (letter == 'u') unplug(id);
+      continue;
+    }
     set_axis(pad, SDL_CONTROLLER_AXIS_LEFTX, static_cast<Sint16>(-32767.0F * hand[0]));
     set_axis(pad, SDL_CONTROLLER_AXIS_LEFTY, static_cast<Sint16>(-32767.0F * hand[1]));
     set_button(pad, SDL_CONTROLLER_BUTTON_A, hand[2] > 0.0F ? 1 : 0);
@@ -61,6 +89,11 @@ void plug_in(const std::string& path) {
 }
 
 }  // namespace
+
+extern "C" SDL_bool SDL_GameControllerHasSensor(SDL_GameController*, SDL_SensorType sensor) {
+  return sensor == SDL_SENSOR_GYRO ? SDL_TRUE : SDL_FALSE;
+}
+extern "C" int SDL_GameControllerSetSensorEnabled(SDL_GameController*, SDL_SensorType, SDL_bool) { return 0; }
 
 extern "C" int SDL_InitSubSystem(Uint32 flags) {
   const int result = SDL(SDL_InitSubSystem)(flags);
