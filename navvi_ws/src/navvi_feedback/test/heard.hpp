@@ -1,11 +1,14 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/types.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -93,6 +96,16 @@ inline double tone_in(const std::vector<double>& ear, double frequency) {
   }
   return last > first ? 2.0 * std::hypot(in_phase, across) / static_cast<double>(last - first)
                       : 0.0;
+}
+
+/// The voices' processes.
+inline std::vector<pid_t> voices() {
+  std::vector<pid_t> found;
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream children(thread.path() / "children");
+    for (pid_t id = 0; children >> id;) found.push_back(id);
+  }
+  return found;
 }
 
 }  // namespace navvi_feedback::devices

@@ -4,7 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <thread>
+
+/// Virtual pads have a sensor; in the program of gamepad_test.cpp.
+extern std::atomic<bool> g_sensors;
 
 namespace navvi_feedback::devices {
 
@@ -78,6 +83,38 @@ class VirtualPad {
   std::atomic<int> left_{-1};
   std::atomic<int> right_{-1};
   std::atomic<int> left_trigger_{-1}, right_trigger_{-1};
+};
+
+/// A virtual pad with a sensor that streams at 100 Hz until it is frozen.
+class StreamingPad {
+ public:
+  StreamingPad() {
+    g_sensors = true;
+    stream_ = std::thread([this] {
+      while (!quit_) {
+        SDL_Event event = {};
+        event.csensor.type = SDL_CONTROLLERSENSORUPDATE;
+        event.csensor.which = pad.instance();
+        event.csensor.sensor = SDL_SENSOR_GYRO;
+        if (!frozen) SDL_PushEvent(&event);
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    });
+  }
+  ~StreamingPad() {
+    quit_ = true;
+    stream_.join();
+    g_sensors = false;
+  }
+  StreamingPad(const StreamingPad&) = delete;
+  StreamingPad& operator=(const StreamingPad&) = delete;
+
+  VirtualPad pad;
+  std::atomic<bool> frozen{false};
+
+ private:
+  std::atomic<bool> quit_{false};
+  std::thread stream_;
 };
 
 }  // namespace navvi_feedback::devices

@@ -194,7 +194,8 @@ void Guide::Parts::say(const cues::CueQueue::Step& step, const Devices& devices,
   out.voice = step;
   words = step.events;
   // Where no words are wanted, there are none in the record.
-  if (devices.words) out.said = heard_words.of(words, devices.sounds);
+  if (devices.words)
+    out.said = heard_words.of(words, devices.sounds && devices.voice, devices.heard);
   policy.note(words);
   for (const CueEvent& event : words) {
     const navvi_types::Spoken* const spoken = event.spoken();

@@ -145,14 +145,15 @@ void CueQueue::begin_next(Step& step) {
   step.scan = running_->cue.scan;
 }
 
-std::vector<CueEvent> HeardWords::of(std::vector<CueEvent> events, bool heard) {
+std::vector<CueEvent> HeardWords::of(std::vector<CueEvent> events, bool hears, bool heard) {
   std::vector<CueEvent> result;
   for (CueEvent& event : events) {
-    if (event.stage == CueStage::started && !heard) {
+    if (event.id == unheard_) continue;
+    if (event.stage == CueStage::started && !hears) {
       unheard_ = event.id;
       event.stage = CueStage::dropped;
-    } else if (event.id == unheard_) {
-      continue;
+    } else if (event.stage == CueStage::ended && !heard) {
+      event.stage = CueStage::cut;
     }
     result.push_back(event);
   }

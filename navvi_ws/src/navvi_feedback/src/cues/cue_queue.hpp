@@ -57,9 +57,10 @@ class CueQueue {
 /// Keeps out of the record what nobody can have heard.
 class HeardWords {
  public:
-  /// \param heard  what is played now reaches somebody
-  /// \return the events; words that start unheard are dropped instead, and say no more
-  [[nodiscard]] std::vector<CueEvent> of(std::vector<CueEvent> events, bool heard);
+  /// \param hears  words that begin now reach somebody \param heard  so did the last, to their end
+  /// \return the events; words that start unheard are dropped instead, and say no more, and those
+  /// that end unheard are cut
+  [[nodiscard]] std::vector<CueEvent> of(std::vector<CueEvent> events, bool hears, bool heard);
 
  private:
   std::optional<std::uint32_t> unheard_;  ///< the words that are timed without a device

@@ -287,9 +287,10 @@ CueEvent event(std::uint32_t id, CueStage stage) {
 }
 
 /// \return the stages of these that count as heard, in order
-std::vector<CueStage> stages(HeardWords& words, const std::vector<CueEvent>& events, bool hears) {
+std::vector<CueStage> stages(HeardWords& words, const std::vector<CueEvent>& events, bool hears,
+                             bool heard = true) {
   std::vector<CueStage> result;
-  for (const CueEvent& event : words.of(events, hears)) result.push_back(event.stage);
+  for (const CueEvent& event : words.of(events, hears, heard)) result.push_back(event.stage);
   return result;
 }
 
@@ -303,6 +304,9 @@ TEST(HeardWordsTest, are_those_that_start_while_somebody_hears_and_no_others) {
   EXPECT_EQ(stages(words, {event(2, CueStage::ended)}, true), Stages{})
       << "the device is back before the words end, but nobody heard how they began";
   EXPECT_EQ(stages(words, {event(3, CueStage::started)}, true), Stages{CueStage::started});
+  EXPECT_EQ(stages(words, {event(3, CueStage::ended), event(4, CueStage::started)}, true, false),
+            (Stages{CueStage::cut, CueStage::started}))
+      << "a device that was lost and is back, or a voice: the next words are heard";
 }
 
 }  // namespace

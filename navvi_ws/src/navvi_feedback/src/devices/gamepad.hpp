@@ -35,6 +35,10 @@ class Gamepad {
     unsigned others = 0;            ///< further pads that are ignored
     unsigned rumble_errors = 0;     ///< commands that the pad refused, since the start
     unsigned connections = 0;       ///< pads opened since the start
+
+    [[nodiscard]] bool answers() const { return connected && !silent; }
+    /// Its motors can be felt.
+    [[nodiscard]] bool felt() const { return answers() && has_rumble; }
   };
 
   /// Returns once the pads that are there have been looked for.

@@ -178,15 +178,23 @@ bool Mixer::connected() const {
   return connected == ALC_TRUE;
 }
 
-void Mixer::tend() {
+bool Mixer::tend() {
   const std::lock_guard lock(device_mutex_);
-  if (audio_ == Audio::off || connected()) return;
+  if (audio_ == Audio::off || connected()) return true;
   if (handles_->device != nullptr) {
     close();
     report(Status::Device::lost, "the audio device disappeared");
     next_attempt_ = Clock::now();
   }
   if (Clock::now() >= next_attempt_) open(status().device);
+  return false;
+}
+
+void Mixer::plays(bool does) {
+  const std::lock_guard lock(device_mutex_);  // close() would wait for a device that hangs
+  if (!connected() || does == (status().device == Status::Device::open)) return;
+  does ? report(Status::Device::open, "")
+       : report(Status::Device::lost, "the audio device does not play");
 }
 
 Mixer::Status Mixer::status() const {
@@ -248,14 +256,14 @@ void Mixer::stop() {
 
 bool Mixer::play(const Sound& sound, double gain, const Eigen::Vector2d& from) {
   const std::unique_lock lock(device_mutex_, kPatience);
-  if (!lock || !connected()) return false;
+  if (!lock || !connected() || status().device != Status::Device::open) return false;
   if (++handles_->next >= Handles::kLasting) handles_->next = Handles::kVoices;
   return handles_->start(handles_->next, sound, volume_ * gain, from);
 }
 
 bool Mixer::hold(const Sound& sound, double gain, double pitch, double leftness) {
   const std::unique_lock lock(device_mutex_, kPatience);
-  if (!lock || !connected()) return false;
+  if (!lock || !connected() || status().device != Status::Device::open) return false;
   const ALuint source = handles_->sources.at(Handles::kLasting);
   const Eigen::Vector2d from(std::sqrt(std::max(0.0, 1.0 - leftness * leftness)), leftness);
   ALint state = AL_STOPPED;

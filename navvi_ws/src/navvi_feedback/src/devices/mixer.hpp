@@ -35,7 +35,7 @@ class Mixer {
     enum class Device {
       open,
       missing,  ///< none could be opened at the start
-      lost,     ///< it disappeared
+      lost,     ///< it disappeared, or hangs
       off       ///< Audio::off
     };
     Device device = Device::off;
@@ -48,7 +48,10 @@ class Mixer {
   ~Mixer();
 
   /// Notices the loss of the device, and tries to open one again. It may take a second.
-  void tend();
+  /// \return false if it was lost
+  bool tend();
+  /// As the voice finds: a device that hangs counts as lost until it plays again.
+  void plays(bool does);
   [[nodiscard]] Status status() const;
 
   /// From now on. \param volume  as MixerConfig::volume

@@ -21,6 +21,8 @@ constexpr auto kCloseLook = std::chrono::milliseconds(1);
 constexpr auto kIdlePoll = std::chrono::milliseconds(250);
 /// The mixer needs no longer to fade a stopped sound out.
 constexpr auto kFade = std::chrono::milliseconds(25);
+/// Between two looks; what halts this program so long halts its sound, too.
+constexpr auto kHalted = std::chrono::milliseconds(500);
 /// A device that has not played a sentence so long after its end hangs.
 constexpr auto kHangs = std::chrono::seconds(2);
 
@@ -72,6 +74,7 @@ void Speaker::start(const std::string& text, std::function<void()> begun,
     request_ = fit ? std::optional(text) : std::nullopt;
     begun_ = std::move(begun);
     scan_ = std::move(scan);
+    status_.heard = fit;
     if (!fit) ++status_.failed;
   }
   changed_.notify_all();
@@ -123,6 +126,7 @@ void Speaker::run(std::promise<void> ready) {
     status_.works = voice->works();
     if (!job->text || job->generation != generation_) continue;
     busy_ = false;
+    status_.heard = spoken && job->heard;
     ++(spoken ? status_.spoken : status_.failed);
   }
 }
@@ -164,7 +168,7 @@ std::optional<Speaker::Job> Speaker::next() {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kIdlePoll, [this] { return quit_ || request_; });
   if (quit_) return std::nullopt;
-  Job job{std::exchange(request_, std::nullopt), generation_, config_.rate,
+  Job job{std::exchange(request_, std::nullopt), generation_, config_.rate, true,
           std::exchange(begun_, {}), std::exchange(silent_, {}), std::exchange(scan_, {})};
   if (!std::exchange(fades_, false)) job.silent = {};  // nothing was heard
   return job;
@@ -177,11 +181,13 @@ bool Speaker::superseded(unsigned long generation) const {
 
 bool Speaker::play(Voice& voice, const Sound& sound, Job& job) {
   mixer_.tend();
-  auto end = Clock::now() + seconds(sound.duration());
+  auto looked = Clock::now();
+  auto end = looked + seconds(sound.duration());
   const bool faded = mixer_.mixed() != muted_at_;  // what was cut, in a mix since
   bool audible = mixer_.speak(sound, config_.volume);
   bool begun = !audible;
   bool whole = false;
+  bool heard = false;
   int first = 0;  // samples of the first mix
   while (true) {
     {
@@ -192,6 +198,7 @@ bool Speaker::play(Voice& voice, const Sound& sound, Job& job) {
     }
     if (!begun && (first = mixer_.mixed()) > 0) {
       begun = true;
+      mixer_.plays(true);
       if (job.begun) std::exchange(job.begun, {})();
     }
     if (begun && !std::exchange(whole, true)) {
@@ -204,9 +211,13 @@ bool Speaker::play(Voice& voice, const Sound& sound, Job& job) {
       audible = audible && mixer_.speak_on(*rest);
     }
     if (job.silent && begun && (faded || mixer_.mixed() > first)) std::exchange(job.silent, {})();
-    if (audible && (!mixer_.speaking() || Clock::now() > end + kHangs)) {
+    const auto last = std::exchange(looked, Clock::now());
+    if (audible && looked - last > kHalted) end += looked - last;
+    const bool hangs = looked > end + kHangs;
+    if (audible && (hangs || !mixer_.speaking())) {
       audible = false;
-      mixer_.tend();
+      if (hangs) mixer_.plays(false);
+      heard = mixer_.tend() && begun && !hangs;
     }
     // What a device that was lost did not play passes in silence, so that the times stay true.
     if (!audible && Clock::now() >= end) break;
@@ -215,6 +226,7 @@ bool Speaker::play(Voice& voice, const Sound& sound, Job& job) {
     fall_silent();
   else
     mixer_.stop();
+  job.heard = job.heard && heard;
   return true;
 }
 

@@ -38,6 +38,7 @@ class Speaker {
     unsigned failed = 0;  ///< texts that were not spoken
     unsigned losses = 0;  ///< of the voice's process
     bool works = true;    ///< there is a process that speaks
+    bool heard = true;    ///< the device played the last text to its end
   };
 
   /// \param mixer  outlives this \throws DeviceError with a sentence if the voice cannot be loaded
@@ -67,6 +68,7 @@ class Speaker {
     std::optional<std::string> text;  ///< nullopt: nothing to say, look after the device
     unsigned long generation = 0;
     int rate = 0;  ///< words a minute
+    bool heard = true;  ///< so far
     std::function<void()> begun = {};
     std::function<void()> silent = {};  ///< of what was cut for it
     std::vector<sounds::Play> scan = {};

@@ -10,7 +10,6 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <navvi_config/reader.hpp>
 #include <vector>
 
@@ -99,16 +98,6 @@ TEST(Speaker, speaks_another_language_with_its_letters) {
   ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
   EXPECT_EQ(speaker.status().spoken, 1U);
   EXPECT_EQ(speaker.status().failed, 0U);
-}
-
-/// The voices' processes.
-std::vector<pid_t> voices() {
-  std::vector<pid_t> found;
-  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
-    std::ifstream children(thread.path() / "children");
-    for (pid_t id = 0; children >> id;) found.push_back(id);
-  }
-  return found;
 }
 
 Sound whole(const std::string& text, int rate, Voice& voice) {
@@ -205,6 +194,7 @@ TEST_F(SilentSpeaker, F4_plays_a_sound_for_words_that_no_voice_says) {
   EXPECT_EQ(speaker.take_played().size(), 1U);
   EXPECT_EQ(speaker.status().failed, 1U);
   EXPECT_FALSE(speaker.status().works);
+  EXPECT_FALSE(speaker.status().heard);
   speaker.start("stop");
   EXPECT_TRUE(wait_for([&] { return speaker.status().spoken == 1; }));
   EXPECT_TRUE(speaker.status().works);
@@ -261,6 +251,7 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
     const auto start = Clock::now();
     speaker.start("you have reached the goal");
     ASSERT_TRUE(wait_for([&] { return !speaker.busy(); }));
+    EXPECT_TRUE(speaker.status().heard);
     whole = since(start);
     pause(0.2);
   }
@@ -283,7 +274,7 @@ TEST(Speaker, is_heard_and_falls_silent_at_once_when_stopped) {
   EXPECT_LT(loud_time(), 0.75) << "went on after stop()";
 }
 
-TEST(Speaker, F2_comes_to_the_end_of_a_sentence_that_a_device_takes_and_does_not_play) {
+TEST(Speaker, F2_a_device_that_takes_a_sentence_and_does_not_play_it_counts_as_lost_until_it_does) {
   const std::filesystem::path pipe = recording_folder() / "heard.wav";  // full, and nobody reads it
   std::filesystem::remove(pipe);
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -295,12 +286,20 @@ TEST(Speaker, F2_comes_to_the_end_of_a_sentence_that_a_device_takes_and_does_not
     for (const char* text : {"drive straight, 8 meters", "turn to 3 o'clock, 8 meters"}) {
       speaker.start(text);
       EXPECT_TRUE(wait_for([&] { return !speaker.busy(); })) << text;
+      EXPECT_EQ(mixer.status().device, Mixer::Status::Device::lost) << text;
+      EXPECT_FALSE(mixer.play({22050, {1, 2, 3}}, 1.0, {1.0, 0.0})) << text;
+      EXPECT_FALSE(speaker.status().heard) << text;
     }
     // A device that is closed waits for what it still plays.
     ::fcntl(end, F_SETFL, 0);
     reader = std::thread([end] {
       for (char bytes[4096]; ::read(end, bytes, sizeof bytes) > 0;) continue;
     });
+    pause(0.5);
+    speaker.start("go on, drive straight");
+    EXPECT_TRUE(wait_for([&] { return !speaker.busy(); }));
+    EXPECT_EQ(mixer.status().device, Mixer::Status::Device::open) << "it plays again";
+    EXPECT_TRUE(speaker.status().heard);
   }
   reader.join();
   ::close(end);

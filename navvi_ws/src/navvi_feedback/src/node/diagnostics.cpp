@@ -52,7 +52,7 @@ DiagnosticStatus pad_status(const std::optional<devices::Gamepad::Status>& pad,
   std::string state = input == "keyboard" ? "off" : live ? "works" : "missing";
   if (pad) {
     result = own_pad(*pad);
-    state = pad->connected && pad->has_rumble && !pad->silent ? "works" : "missing";
+    state = pad->felt() ? "works" : "missing";
     add(result, "name", pad->connected ? pad->name : "none");
     add(result, "firmware", pad->firmware == 0 ? "unknown" : std::to_string(pad->firmware));
     add(result, "heartbeat", pad->heartbeat ? "motion sensor" : "none");

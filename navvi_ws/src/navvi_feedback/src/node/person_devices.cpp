@@ -38,25 +38,28 @@ bool PersonDevices::heard() const { return by_topic() || mixer_.status().device 
 
 bool PersonDevices::felt() const {
   const auto own = pad();
-  return own ? own->connected && own->has_rumble : source_.kind() == InputSource::Kind::topic;
+  return own ? own->felt() : source_.kind() == InputSource::Kind::topic;
 }
 
 senses::Devices PersonDevices::read(double time) {
   const auto own = pad();
   senses::Devices now;
+  now.speaking = speech_.busy();  // before what became of it
+  const devices::Speaker::Status voice = speech_.status();
   now.hands = source_.read(time);
   now.keyboard = source_.kind() == InputSource::Kind::keyboard;
   const Sound device = mixer_.status().device;
-  now.audio = !speech_.status().works || device == Sound::lost ? Link::lost
-              : device == Sound::missing                       ? Link::never
-                                                               : Link::alive;
+  now.audio = !voice.works || device == Sound::lost ? Link::lost
+              : device == Sound::missing            ? Link::never
+                                                    : Link::alive;
   now.ears = ears();
   now.words = speech_wanted_ || by_topic();
   now.sounds = heard();
-  now.motors = !own || own->connected;
+  now.voice = by_topic() || voice.works;
+  now.heard = by_topic() || voice.heard;
+  now.motors = !own || own->answers();
   now.felt = felt();
   now.pad = own ? own->guid : "joy";
-  now.speaking = speech_.busy();
   if (own) now.states = notices_of(*own);
   now.person = person_;
   return now;

@@ -21,8 +21,10 @@ struct Devices {
   Link audio = Link::alive;                  ///< the sound device
   std::string ears;                          ///< the sound device, by a word; empty: it is none of ours
   bool words = true;                         ///< words are wanted; false: none is ever heard
-  bool sounds = true;                        ///< words and short sounds reach somebody
-  bool motors = true;                        ///< false if our own pad is not connected
+  bool sounds = true;                        ///< short sounds reach somebody
+  bool voice = true;                         ///< and so do words that begin now
+  bool heard = true;                         ///< and so did the last ones, to their end
+  bool motors = true;                        ///< false if our own pad is not connected, or silent
   bool felt = true;                          ///< there are motors that somebody feels
   std::string pad;                           ///< identifies the motors, without spaces
   bool speaking = false;                     ///< the voice still speaks the last text
