@@ -19,6 +19,7 @@
 #include <navvi_files/files.hpp>
 #include <navvi_types/msg_conversion.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "record/figures.hpp"
@@ -107,6 +108,8 @@ class World {
     clock_.publish(clock);
     if (has_goal_ && x_ < goal_x_ && moving) x_ += 0.04;
     odom_.publish(to_msg(navvi_types::Odometry{now(), {{x_, 0.0}}}));
+    if (x_ > 1.5 && !std::exchange(strayed_, true))
+      odom_.publish(to_msg(navvi_types::Odometry{now() + 3600'000'000'000, {{x_, 0.0}}}));
     publish_guidance();
     diagnostic_msgs::DiagnosticArray devices;
     devices.header.stamp = clock.clock;
@@ -183,6 +186,7 @@ class World {
   double goal_x_ = 0.0;
   bool has_goal_ = false;
   bool hit_ = false;
+  bool strayed_ = false;  ///< one report was stamped far ahead
 };
 
 class TrialNodeProcess : public testing::Test {

@@ -139,7 +139,7 @@ class Recount {
 
   template <typename Report>
   void observe(const Report& report, bool before) {
-    if ((report.stamp <= start_.sim_ns) != before) return;
+    if ((report.stamp <= start_.sim_ns) != before || monitor_.ahead(report.stamp, clock_)) return;
     if (!before) change_goals_until(report.stamp - 1);
     tracker_.observe(report);
     for (const auto& event : monitor_.observe(report)) push(event);
@@ -153,6 +153,7 @@ class Recount {
   }
 
   void see(const rosbag::MessageInstance& item, bool before) {
+    clock_ = navvi_types::to_ns(item.getTime());
     const auto observe_all = [&](const auto& reports) {
       for (const auto& report : reports) observe(report, before);
     };
@@ -167,6 +168,7 @@ class Recount {
       const auto report = node::from_msg(msg);
       if (!report) return;
       if (!before && report->stamp > start_.sim_ns) count_lost(msg.header.seq);
+      if (monitor_.ahead(report->stamp, clock_)) return;
       if ((report->stamp <= start_.sim_ns) == before) tracker_.take_odometry(*report);
       observe_all(places_.take(*report));
     });
@@ -177,7 +179,9 @@ class Recount {
     };
     with<sensor_msgs::Joy>(item, "/joy", [&](const auto& msg) {
       const auto hands = node::from_msg(msg);
-      if (hands && (hands->stamp <= start_.sim_ns) == before) tracker_.observe(*hands);
+      if (hands && (hands->stamp <= start_.sim_ns) == before &&
+          !monitor_.ahead(hands->stamp, clock_))
+        tracker_.observe(*hands);
     });
     with<navvi_msgs::Contact>(item, "/navvi/contacts", observe_one);
     with<navvi_msgs::Proximity>(item, "/navvi/proximity", observe_one);
@@ -199,6 +203,7 @@ class Recount {
   record::Row start_;
   record::Row end_;
   ros::Time over_;
+  std::int64_t clock_ = 0;  ///< ns, ROS time at which the bag got what is seen
   std::vector<record::Row> goals_, cues_;
   std::size_t next_goal_ = 0;
   std::vector<record::Row> rows_;

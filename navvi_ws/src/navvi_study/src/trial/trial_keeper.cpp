@@ -49,6 +49,15 @@ TrialKeeper::TrialKeeper(const TrialNodeConfig& config, Outlets outlets, const M
   enter(Phase::waiting);
 }
 
+bool TrialKeeper::drops(std::int64_t stamp) {
+  if (!monitor_.ahead(stamp, now_.ros_ns)) return false;
+  if (!std::exchange(shown_.dropped, true))
+    tell(Tone::warning, "A report is stamped " +
+                            record::fixed(1e-9 * static_cast<double>(stamp - now_.ros_ns), 1) +
+                            " s ahead of ROS time and was dropped; allowed is 1 s.");
+  return true;
+}
+
 void TrialKeeper::enter(Phase phase) {
   phase_ = phase;
   phase_since_ = now_.wall();
@@ -56,6 +65,7 @@ void TrialKeeper::enter(Phase phase) {
 
 void TrialKeeper::take(const Odometry& odometry, const Moment& now) {
   now_ = now;
+  if (drops(odometry.stamp)) return;
   readiness_.saw_odometry(now.wall());
   tracker_.take_odometry(odometry);
   for (const auto& place : places_.take(odometry)) observe(place);

@@ -81,6 +81,8 @@ class TrialKeeper {
   void take_goal(const Eigen::Vector2d& goal, const Moment& now, std::int64_t stamp = 0);
   /// For the track; a simulated operator that moves them is alive.
   void take(const Hands& hands, const Moment& now) {
+    now_ = now;
+    if (drops(hands.stamp)) return;
     operator_seen_ = now.wall();
     tracker_.observe(hands);
   }
@@ -140,10 +142,13 @@ class TrialKeeper {
   struct Shown {
     double said = 0.0;  ///< s, when a sentence was last on the screen
     std::optional<TrialState::State> state;
+    bool dropped = false;  ///< a report
   };
 
   template <typename Report>
   void observe(const Report& report);
+  /// A report that is stamped far ahead, which is told once.
+  bool drops(std::int64_t stamp);
   void enter(Phase phase);
   void wait();
   void arm();
@@ -212,6 +217,7 @@ class TrialKeeper {
 
 template <typename Report>
 void TrialKeeper::observe(const Report& report) {
+  if (drops(report.stamp)) return;
   readiness_.saw(report, now_.wall());
   tracker_.observe(report);
   for (const auto& event : monitor_.observe(report)) {

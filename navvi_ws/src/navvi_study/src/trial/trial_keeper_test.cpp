@@ -94,6 +94,28 @@ TEST_F(Trials, T4_are_invalid_where_the_guide_arrives_and_the_robot_does_not) {
   EXPECT_TRUE(holds("summary.csv", ",invalid,arrived_elsewhere,"));
 }
 
+TEST_F(Trials, T4_go_on_where_reports_are_stamped_far_ahead_and_say_so_once) {
+  for (const double limit : {0.0, 100.0}) {
+    config_.out = (folder_ / (limit > 0.0 ? "limit" : "none")).string();
+    config_.limit = limit;
+    said_.clear();
+    run();
+    const std::int64_t ahead = now().ros_ns + 3600'000'000'000;
+    keeper_->take(Odometry{ahead, {{time_, 0.0}}}, now());
+    keeper_->take(Proximity{ahead, {}}, now());
+    keeper_->take(StateHash{ahead, 1, 2}, now());
+    live(3.0, State::following, kScenario.goal);
+    live(9.0, State::arrived, kScenario.goal);
+    const record::Trial trial = record::read_trial(folders().back());
+    EXPECT_TRUE(holds("summary.csv", ",reached,goal_reached,"));
+    EXPECT_NEAR(trial.end() - trial.begin(), 4.5, 0.5);
+    EXPECT_NEAR(trial.track.back().time, trial.end(), 0.1);
+    const auto at = said_.find("A report is stamped 3600.0 s ahead of ROS time and was dropped");
+    ASSERT_NE(at, said_.npos) << said_;
+    EXPECT_EQ(said_.find("ahead of ROS time", at + 60), said_.npos);
+  }
+}
+
 TEST_F(Trials, begin_when_the_person_says_so_and_count_from_then) {
   using Wants = TrialState::State;
   config_.press_to_start = true;

@@ -21,6 +21,7 @@ constexpr double kTurned = 0.1;       // rad
 constexpr std::int64_t kOldNews =
     2'000'000'000;               // ns in which an arrival or a refusal may still be the last goal's
 constexpr double kBeside = 3.0;  // m, from the hull to a thing beside the robot
+constexpr double kAhead = 1.0;   // s, farther no report is, but for a clock that was set back
 
 std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
@@ -60,8 +61,12 @@ bool TrialMonitor::counts(std::int64_t stamp) {
   return start_ && stamp > start_->stamp && (!end_ || stamp <= *end_);
 }
 
+bool TrialMonitor::ahead(std::int64_t stamp, std::int64_t clock) const {
+  const double s = 1e-9 * static_cast<double>(stamp - std::max(clock, latest_));
+  return clock != 0 && s > kAhead + round_trip_;
+}
+
 TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) {
-  constexpr double kAhead = 1.0;  // s; farther only a clock can have been, which was set back
   if (1e-9 * static_cast<double>(latest_ - stamp) > kAhead + round_trip_) latest_ = stamp;
   return {std::max(stamp, latest_), goal, hits_.contact_seq, hits_.shelf_count,
           hits_.obstacle_count};

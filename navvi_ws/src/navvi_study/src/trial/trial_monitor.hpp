@@ -157,6 +157,9 @@ class TrialMonitor {
   [[nodiscard]] double round_trip() const { return round_trip_; }
   /// The wheels were stopped as ROS time had jumped, if for a moment only.
   [[nodiscard]] bool clock_jumped() const { return clock_jumped_; }
+  /// A stamp that no report of this time can have: it would end all that is compared with it.
+  /// \param clock  ns, ROS time; 0 while its clock has not begun. What has waited may be before it.
+  [[nodiscard]] bool ahead(std::int64_t stamp, std::int64_t clock) const;
   /// ns, the latest stamp that was seen at all
   [[nodiscard]] std::int64_t latest() const { return latest_; }
 
