@@ -123,10 +123,7 @@ class World {
     if (tick_ % 50 == 0)
       state_.publish(to_msg(
           navvi_types::StateHash{now(), static_cast<std::uint64_t>(tick_), 0xc0ffee00}));
-    if (x_ > 2.0 && !hit_)
-      touch();
-    else if (!hit_)
-      contacts_.publish(to_msg(box_hit()));
+    if (x_ > 2.0 && !hit_) touch();
   }
 
   bool moving = true;
@@ -152,20 +149,12 @@ class World {
     guidance_.publish(to_msg(guidance));
   }
 
-  /// The last one before the trial.
-  static navvi_types::Contact box_hit() {
-    navvi_types::Contact contact{ThingClass::box, {}, 1, "box", 0.0, {}};
-    contact.counts = {{ThingClass::box, 1}};
-    contact.seq = 1;
-    contact.stamp = 1;
-    return contact;
-  }
   void touch() {
     hit_ = true;
     navvi_types::Contact contact{ThingClass::shelf, {x_, 0.0}, 3, "shelf; 3", 0.0, {{x_, 0.0}}};
     contact.speed = 2.0;
-    contact.counts = {{ThingClass::shelf, 1}, {ThingClass::wall, 1}, {ThingClass::box, 1}};
-    contact.seq = 3;  // that with a wall was lost
+    contact.counts = {{ThingClass::shelf, 1}, {ThingClass::wall, 1}};
+    contact.seq = 2;  // the first one was lost
     contact.stamp = now();
     contacts_.publish(to_msg(contact));
     navvi_types::CueEvent cue{1, navvi_types::CueStage::started, navvi_types::CueKind::stuck,

@@ -167,6 +167,7 @@ bool LoopTrial::watch() {
 void LoopTrial::begin() {
   const Eigen::Vector2d& goal = loop_.scenario().goal;
   start_ = monitor_.start_now(now(), goal);
+  start_.hits_known = true;
   monitor_.start(start_);
   tracker_.start(start_.stamp);
   flow_.start(start_.stamp);

@@ -117,7 +117,8 @@ void add_conditions(record::Fields& fields, const TrialNodeConfig& config,
   fields.set("goal_x", start.goal.x(), 6).set("goal_y", start.goal.y(), 6);
   fields.set("limit", config.limit);
   fields.set("contacts", config.contacts);
-  fields.set("contact_seq", std::uint64_t{start.contact_seq});
+  const bool known = start.hits_known || start.contact_seq > 0;
+  fields.set("contact_seq", known ? std::to_string(start.contact_seq) : "n/a");
   fields.set("shelf_contacts", start.shelf_count);
   fields.set("obstacle_contacts", start.obstacle_count);
   const TrialMonitorConfig& monitor = config.monitor;

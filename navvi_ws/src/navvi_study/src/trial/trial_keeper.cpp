@@ -260,7 +260,8 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
   goals_.next.reset();
   goals_.before.reset();
   const Eigen::Vector2d& goal = goals_.now.place;
-  const TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
+  TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
+  beginning.hits_known = offered_.scenario && config_.sources.link.empty();
   monitor_.start(beginning);
   tracker_.start(beginning.stamp);
   listen();

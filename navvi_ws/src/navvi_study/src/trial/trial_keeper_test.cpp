@@ -38,6 +38,7 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   EXPECT_EQ(events_[0], "TRIAL_START");
   EXPECT_EQ(events_[1], "GOAL_SET");
   EXPECT_TRUE(holds("journal.csv", "world=hall"));
+  EXPECT_TRUE(holds("journal.csv", ";contact_seq=0;")) << "of a world of its own";
   live(1.0, State::following, kScenario.goal);
   EXPECT_FALSE(happened("TRIAL_END"));
   live(0.1, State::arrived, kScenario.goal);
@@ -155,6 +156,7 @@ TEST_F(Trials, are_separated_by_a_pause_in_which_a_goal_can_be_chosen_again_and_
   press();
   live(1.0, State::following, {4.0, 0.0});
   EXPECT_TRUE(holds("journal.csv", "goal_x=4.0"));
+  EXPECT_TRUE(holds("journal.csv", ";contact_seq=n/a;")) << "of a robot that came from elsewhere";
   press(TrialRequest::Kind::end);
   live(9.0);
   EXPECT_TRUE(happened("TRIAL_END"));

@@ -203,7 +203,7 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
     return {};
   }
   // The first of all that was seen, over a link to a world that others drove in before.
-  if (inside && hits_.contact_seq == 0)
+  if (inside && hits_.contact_seq == 0 && !start_->hits_known)
     hits_ = {contact.seq - 1, shelves - (shelf ? 1 : 0), obstacles - (shelf ? 0 : 1)};
   if (inside) {
     // Running counts that jump by more than this contact show the contacts that were lost.

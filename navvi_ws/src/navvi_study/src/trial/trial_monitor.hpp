@@ -81,6 +81,8 @@ struct TrialStart {
   std::uint32_t contact_seq = 0;  ///< of the last contact before the trial
   std::uint64_t shelf_count = 0;  ///< contacts before the trial
   std::uint64_t obstacle_count = 0;
+  /// These three are the world's, also as 0; else a first contact may follow others' in it.
+  bool hits_known = false;
   /// Kinds of cues that say that the robot is stuck; records of 0.1.0 count the first alone.
   std::vector<CueKind> stuck = {CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away};
 };

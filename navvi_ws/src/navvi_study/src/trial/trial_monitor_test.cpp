@@ -106,6 +106,16 @@ TEST_F(Monitor, counts_no_contacts_of_those_who_drove_in_the_same_world_before) 
   EXPECT_EQ(monitor_.tally().missed_messages, 0u);
 }
 
+TEST_F(Monitor, R3_makes_the_first_contact_good_in_a_world_that_nobody_drove_in_before) {
+  TrialStart start{10 * kSecond, {5.0, 0.0}};
+  start.hits_known = true;
+  monitor_.start(start);
+  EXPECT_EQ(seen(contact(11.0, 2, "shelf", 1, 1)), (Names{"COLLISION", "COLLISION"}));
+  EXPECT_EQ(monitor_.tally().shelf_collisions, 1u);
+  EXPECT_EQ(monitor_.tally().obstacle_collisions, 1u);
+  EXPECT_EQ(monitor_.tally().missed_messages, 1u);
+}
+
 TEST_F(Monitor, T1_begins_at_the_time_that_is_where_the_clock_was_set_back) {
   (void)monitor_.observe(guidance(5000.0, State::following));
   EXPECT_EQ(monitor_.start_now(20 * kSecond, {5.0, 0.0}).stamp, 20 * kSecond);
