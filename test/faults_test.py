@@ -16,7 +16,7 @@ import pytest
 
 from clock import Clock
 from display import Display
-from sessions import ROOT, WORLD, eventually, rows_of, summary, within
+from sessions import ROOT, WORLD, Programs, Session, eventually, rows_of, sound, summary, within
 
 
 @pytest.fixture
@@ -70,6 +70,42 @@ def end_of(begun):
 def ended(begun, *more):
     """Result and reason of its trial, and further columns."""
     return tuple(summary(begun.folder)[name] for name in ("result", "reason", *more))
+
+
+HEAR = "import rospy, navvi_msgs.msg as msg; rospy.init_node('ear', disable_rostime=True); " \
+       "rospy.Subscriber('/navvi/cues', msg.Cue, lambda cue: print(cue.kind, flush=True)); rospy.spin()"
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    if os.getuid() != 0:
+        pytest.skip("only root may mount a file system")
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=80m", "none", disk], check=True)
+    yield disk
+    subprocess.run(["umount", "-l", disk], check=True)
+
+
+def test_L1_a_disk_that_fills_in_a_trial_is_announced_and_the_record_is_whole(small_disk, tmp_path, record_property):
+    with Session(small_disk, f"world:={WORLD}", "seed:=3", "speech:=true", **sound(tmp_path)) as begun:
+        begun.wait_until_begun()
+        with Programs(dict(os.environ, ROS_MASTER_URI=begun.uri, ROS_IP="127.0.0.1"), tmp_path / "heard") as ear:
+            ear.start("/usr/bin/python3", "-c", HEAR)
+            begun.wait_until(lambda: ear.log.read_text(), 30, "cues are heard")
+            begun.sleep(2.0)
+            with contextlib.suppress(OSError), open(small_disk / "film", "wb", buffering=0) as film:
+                while True:
+                    film.write(bytes(1 << 20))
+            full = time.monotonic()
+            begun.wait_until(lambda: "trial_disk_full" in ear.log.read_text(), 20, "it is announced")
+            within(record_property, "announced", time.monotonic() - full, 1.0)
+        begun.wait_until_ended(60)
+        assert ended(begun) == ("invalid", "disk_full"), begun.text()[-2000:]
+        folder = next(small_disk.glob("trial-*"))
+        rows = rows_of(folder / "journal.csv")
+        assert [int(row["seq"]) for row in rows] == list(range(1, len(rows) + 1))
+        assert "TRIAL_END" in (folder / "events.csv").read_text()
 
 
 @contextlib.contextmanager

@@ -154,11 +154,15 @@ bool Journal::full(std::uint64_t least) const {
   return reserve_used_ || fs::space(folder_, error).available < least;
 }
 
+void Journal::give_up_reserve() {
+  reserve_used_ = true;
+  ::unlink(reserve_in(folder_).c_str());
+}
+
 int Journal::write(std::string_view line) {
   int error = navvi_files::write_all(file_, line, calls_);
   if (error == ENOSPC && !reserve_used_) {
-    reserve_used_ = true;
-    ::unlink(reserve_in(folder_).c_str());
+    give_up_reserve();
     error = navvi_files::write_all(file_, line, calls_);
   }
   return error;

@@ -39,6 +39,8 @@ class Journal {
   [[nodiscard]] bool broken() const { return !problem_.empty(); }
   /// The reserve has been given up, or less than `least` bytes are free: end the trial.
   [[nodiscard]] bool full(std::uint64_t least = kPage) const;
+  /// Frees the reserve for all that is still to be written.
+  void give_up_reserve();
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
  private:

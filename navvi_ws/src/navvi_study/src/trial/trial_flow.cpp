@@ -64,8 +64,7 @@ Ending TrialFlow::last_word(Ending ending, const std::optional<Ending>& arrival,
     ending.result = arrival->result;
     ending.reason = arrival->reason;
   }
-  if (disk_full) ending.result = "invalid";
-  return ending;
+  return disk_full ? Ending{"invalid", "disk_full", ending.stamp} : ending;
 }
 
 }  // namespace navvi_study::trial

@@ -73,6 +73,7 @@ TEST(TrialFlow, a_goal_reached_just_before_another_end_counts_but_not_with_holes
   EXPECT_EQ(TrialFlow::last_word(late, std::nullopt, false).result, "timeout");
   EXPECT_EQ(TrialFlow::last_word({"invalid", "disk_full", 1}, reached, false).result, "invalid");
   EXPECT_EQ(TrialFlow::last_word(reached, reached, true).result, "invalid");
+  EXPECT_EQ(TrialFlow::last_word(reached, reached, true).reason, "disk_full");
 }
 
 TEST(TrialFlow, names_the_part_that_had_been_silent_before_a_signal) {

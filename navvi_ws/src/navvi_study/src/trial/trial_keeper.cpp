@@ -404,13 +404,14 @@ void TrialKeeper::end(const Ending& ending) {
 }
 
 void TrialKeeper::write_end() {
+  const bool full = kept_.journal->full();
+  if (full) kept_.journal->give_up_reserve();
   keep_track(ending_.stamp);
   // The goal may have been reached just before the end that was called first.
-  ending_ = TrialFlow::last_word(ending_, monitor_.arrival(), kept_.journal->full());
+  ending_ = TrialFlow::last_word(ending_, monitor_.arrival(), full);
   if (const auto problem = kept_.track->sync()) {
     tell(Tone::error, *problem);
-    ending_.result = "invalid";
-    ending_.reason = "track_not_written";
+    if (!full) ending_ = {"invalid", "track_not_written", ending_.stamp};
   }
   record::Fields fields = monitor_.end_fields();
   fields.set("result", ending_.result).set("reason", ending_.reason);
