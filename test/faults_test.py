@@ -108,6 +108,19 @@ def test_L1_a_disk_that_fills_in_a_trial_is_announced_and_the_record_is_whole(sm
         assert "TRIAL_END" in (folder / "events.csv").read_text()
 
 
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSTOP], ids=["killed", "halted"])
+def test_R1_a_recorder_that_dies_or_is_halted_is_recorded_and_the_trial_goes_on(how, run, record_property):
+    begun = run()
+    journal = next(begun.folder.glob("trial-*/journal.csv"))
+    begun.kill("/rosbag/record", how)
+    lost = time.monotonic()
+    begun.wait_until(lambda: "BAG_LOST" in journal.read_text(), 20, "the loss is recorded")
+    within(record_property, "recorded", time.monotonic() - lost, 3.0)
+    begun.wait_until_ended(240)
+    assert ended(begun, "bag") == ("reached", "goal_reached", "bad"), begun.text()[-2000:]
+    assert "state=bad" in journal.read_text()
+
+
 @contextlib.contextmanager
 def twin_of(begun, node):
     """Another program by the name of one of the session's nodes."""
