@@ -1,11 +1,13 @@
 """launch/robot.launch with a robot that NavVI has never met: here the simulator, which knows nothing of the person's side."""
 import json
+import os
 import re
 
 import pytest
 import yaml
 from navvi_msgs.msg import TrialState
 
+from conftest import free_port
 from sessions import ROOT, WORLD, Programs, eventually, roslaunch, summary
 
 PLACES = {"packing table": (0.5, 0.5), "gate 4": (-0.5, 0.25)}
@@ -83,6 +85,11 @@ class Robot(Programs):
         found = re.search(r"-?\d+(\.\d+)?(e-?\d+)?", text)
         return float(found.group()) if found else None
 
+    def send_goal(self):
+        x, y = (self.field("/navvi/scenario", f"goal/{axis}") for axis in "xy")
+        goal = f"{{header: {{frame_id: map}}, pose: {{position: {{x: {x}, y: {y}}}, orientation: {{w: 1.0}}}}}}"
+        self.start("rostopic", "pub", "-r", "1", "/move_base_simple/goal", "geometry_msgs/PoseStamped", goal)
+
 
 def test_a_session_ends_with_its_job_and_leaves_nobody_at_a_stick_that_is_held(master, tmp_path):
     with Robot(master, tmp_path, f"jobs:={places_file(tmp_path)}", "limit:=1") as robot:
@@ -104,9 +111,7 @@ def test_the_next_session_has_no_parameter_of_the_last_one(robot):
 
 
 def test_a_goal_from_outside_is_followed(robot):
-    x, y = (robot.field("/navvi/scenario", f"goal/{axis}") for axis in "xy")
-    goal = f"{{header: {{frame_id: map}}, pose: {{position: {{x: {x}, y: {y}}}, orientation: {{w: 1.0}}}}}}"
-    robot.start("rostopic", "pub", "-r", "1", "/move_base_simple/goal", "geometry_msgs/PoseStamped", goal)
+    robot.send_goal()
     assert eventually(lambda: robot.field("/navvi/guidance", "state") == 1)
 
 
@@ -137,6 +142,21 @@ def test_M2_a_relay_whose_name_is_taken_ends_the_trial_and_the_session(robot):
     robot.start("/usr/bin/python3", "-c", "import rospy; rospy.init_node('relay_node'); rospy.spin()")
     robot.guide.wait(40)
     assert (summary(robot.folder)["result"], summary(robot.folder)["reason"]) == ("aborted", "name_taken")
+
+
+def test_M1_the_robots_own_master_that_is_killed_ends_trial_and_session(tmp_path):
+    port = free_port()
+    env = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1")
+    with Programs(env) as own:
+        master = own.start("rosmaster", "--core", "-p", port)
+        assert eventually(lambda: own.run("rosnode", "list").returncode == 0, 20)
+        with Robot(env, tmp_path) as robot:
+            assert eventually(lambda: robot.field("/navvi/guidance", "state") is not None, 120)
+            robot.send_goal()
+            assert eventually(lambda: robot.field("/navvi/trial_state", "state") == TrialState.RUNNING)
+            master.kill()
+            robot.guide.wait(40)
+            assert (summary(tmp_path)["result"], summary(tmp_path)["reason"]) == ("aborted", "master_lost")
 
 
 def test_the_robots_frames_and_radius_reach_who_reads_them():

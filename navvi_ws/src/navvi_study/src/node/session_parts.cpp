@@ -5,12 +5,15 @@
 #include <ros/master.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
+#include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <memory>
 #include <navvi_config/launcher.hpp>
+#include <navvi_config/ros_parameters.hpp>
+#include <thread>
 #include <utility>
 
 namespace navvi_study::node {
@@ -20,6 +23,7 @@ constexpr int kPatience = 300;              // ms
 constexpr int kLook = 10;                   // ms between two looks
 constexpr int kThreads = 100;               // ms that roslaunch's threads take to end, one by one
 constexpr int kBusy = 800;                  // ms that they take longer on a busy machine
+constexpr int kWatch = 1000;                // ms between two looks at the master
 
 /// The host says that nobody listens there. One that is only slow does not say so.
 bool nobody_listens(const std::string& host, std::uint32_t port) {
@@ -64,6 +68,16 @@ bool launcher_has_ended(int patience) {  // ms
 }
 
 }  // namespace
+
+void end_with_master() {
+  std::thread([host = ros::master::getHost(), port = ros::master::getPort()] {
+    for (int lost = 0; lost < 2; lost = nobody_listens(host, port) ? lost + 1 : 0)
+      ::poll(nullptr, 0, kWatch);
+    if (navvi_config::ending()) return;  // as a master does that roslaunch has ended
+    navvi_config::end();
+    if (navvi_config::is_roslaunch(::getppid())) ::kill(::getppid(), SIGINT);
+  }).detach();
+}
 
 void SessionParts::note() {
   for (const auto& [node, reason] : kParts) addresses_[node] = address_of(node);

@@ -5,6 +5,11 @@
 
 namespace navvi_study::node {
 
+/// From now on ends this node, and with it the roslaunch that started it, once the host of the ROS
+/// master says twice, a second apart, that none listens there. Beside the thread that spins, as a
+/// host may be slow to answer.
+void end_with_master();
+
 /// What a session stands on. roslaunch ends all nodes at once when a part of it ends, as it does at
 /// Ctrl-C.
 class SessionParts {

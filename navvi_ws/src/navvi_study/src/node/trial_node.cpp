@@ -273,6 +273,7 @@ int main(int argc, char** argv) {
   ::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is an error of write(), as any other
   return navvi_config::run_node<TrialNodeConfig>([](const TrialNodeConfig& config) {
     navvi_study::node::TrialNode trials(config);
+    navvi_study::node::end_with_master();
     navvi_config::spin();
     if (navvi_config::ending()) trials.shut_down();
     return trials.exit_code();
