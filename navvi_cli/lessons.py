@@ -18,14 +18,15 @@ def lesson_arguments(parser, person):
 
 
 def give(lesson, given, needed="", sentence=""):
-    """\\param needed  begin of a word without which the sentence refuses it"""
+    """\\param needed  begin of a word without which the sentence refuses it
+    Returns the exit code."""
     if needed and not any(word.startswith(needed) for word in given):
         fail(sentence, 2)
     launch_file = LaunchFile("lesson.launch")
     out = Words([word for word in given if word.startswith("out:=")], ["out"]).get("out")
     out = Path(os.path.abspath(out)) if out else None
     kept = out and out / f"{lesson}-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}"
-    record = [f"feedback/record:={kept}.csv"] if kept and lesson == "calibrate" else []
+    record = [f"feedback/record:={kept}.csv"] if kept and lesson == "calibrate" and "feedback/record:=" not in " ".join(given) else []
     words = words_for(launch_file, [word for word in given if not word.startswith("out:=")] + record, CHOICES)
     words.update({"lesson": lesson, "speech": words.get("speech", "true"), "profile": words.get("profile", "default")})
     if words.setdefault("operator", "auto") == "auto":
@@ -45,6 +46,7 @@ def give(lesson, given, needed="", sentence=""):
             fail(f"it broke off: {launch.log.fatal or log.read_text(errors='replace')[-500:]}")
         if kept:
             say(f"the log is {log}{f', what was measured {kept}.csv' if Path(f'{kept}.csv').exists() else ''}.")
+    return 130 if launch.interrupted else 0
 
 
 def make(folder):

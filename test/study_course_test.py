@@ -294,15 +294,20 @@ def test_a_calibration_that_failed_comes_again(tmp_path):
     kept = frozen(tmp_path, ("operator: simulated", "operator: pad\ncalibrate: true"))
     said = []
 
-    def next_step(code):
+    def next_step(name, code, saved=""):
+        """Of a calibration that ends with the code, and whose table says whether it was saved."""
         live = runner.LiveRunner(kept, tmp_path / f"exits_{code}", "true")
-        Path(live.navvi).write_text(f"#!/bin/sh\nexit {code}\n")
+        table = f"printf 'measured,value\\ndelay_s,0.4\\nsaved,{saved}\\n' > \"${{word#feedback/record:=}}\"" if saved else "true"
+        Path(live.navvi).write_text(f"#!/bin/sh\nfor word; do case $word in feedback/record:=*) {table};; esac; done\nexit {code}\n")
         Path(live.navvi).chmod(0o755)
-        return session.Session(kept, live, said.append, wait=False).next("sub-01")
-    assert next_step(1) is None and "the calibration broke off" in said[-1]
-    assert next_step(0).kind == "calibrate"
-    progress = kept.progress()
-    assert progress.next(progress.person("sub-01")).kind == "trial"
+        return session.Session(kept, live, said.append, wait=False).next(name)
+    for ended in (1, ""), (1, "yes"), (130, "yes"), (0, ""):
+        assert next_step("sub-01", *ended) is None and "the calibration broke off" in said[-1], ended
+    for name, saved in ("sub-01", "yes"), ("sub-02", "no"):
+        assert next_step(name, 0, saved).kind == "calibrate"
+        progress = kept.progress()
+        assert progress.next(progress.person(name)).kind == "trial" and kept.journal.rows()[-1]["saved"] == saved
+    assert "ended by the person, and nothing is saved" in said[-1]
 
 
 def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):

@@ -26,4 +26,4 @@ def arguments(parser):
 
 
 def run(args):
-    give("calibrate", args.words, "person:=", "whose settings are these? person:=NAME is needed, such as person:=anna.")
+    return give("calibrate", args.words, "person:=", "whose settings are these? person:=NAME is needed, such as person:=anna.")

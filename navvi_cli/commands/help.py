@@ -3,8 +3,8 @@
 Each command installs and builds what it needs. "./navvi COMMAND --help" shows
 the details of one, "./navvi man" the full manual. Exit codes are 0 for success,
 1 where something did not succeed, 2 for a wrong argument, 130 after Ctrl-C (of
-replay, robot start, glossary and calibrate 0, of run and tutorial the trial's).
-For the Tab key: source <(./navvi completion)
+replay, robot start, glossary and questionnaire 0, of run and tutorial that of
+the trial). For the Tab key: source <(./navvi completion)
 """
 from navvi_cli import main
 

@@ -97,8 +97,8 @@ class LiveRunner:
         self.paused = False
 
     def command(self, words, participant, lock):
-        """A command of ./navvi that needs a person. Returns whether it was done."""
-        return self.study.plan.operator == "simulated" or self._run(words, participant, lock) == 0
+        """A command of ./navvi that needs a person. Returns its exit code; None where the person is simulated."""
+        return None if self.study.plan.operator == "simulated" else self._run(words, participant, lock)
 
     def close(self, folder):
         """Puts the trials of a session in order that was killed."""
@@ -208,7 +208,7 @@ class LoopRunner:
         step.simulate(participant, items, answered)
 
     def command(self, words, participant, lock):
-        return True
+        return None
 
     def close(self, folder):
         pass

@@ -1,5 +1,6 @@
 """The calibration of touch and hearing, once."""
 from ..checked import flag
+from ..journal import rows_of
 from .step import Step
 
 
@@ -17,7 +18,13 @@ class Calibrate(Step):
         return [cls.at(place, "calibrate")] if place.plan.steps["calibrate"] and place.session == 1 else []
 
     def run(self, session, progress, person, lock):
-        if session.runner.command(["calibrate", f"person:={person.name}"], person.name, lock):
-            return super().run(session, progress, person, lock)
-        session.say(f"navvi: {person.name}: the {self} broke off; the next \"study next\" comes to it again.")
-        return False
+        record = session.study.home(person.name) / "calibrate.csv"
+        record.unlink(missing_ok=True)
+        code = session.runner.command(["calibrate", f"person:={person.name}", f"feedback/record:={record}"], person.name, lock)
+        saved = {row.get("measured"): row.get("value") for row in rows_of(record)}.get("saved")
+        if code or code == 0 and not saved:
+            session.say(f"navvi: {person.name}: the {self} broke off; the next \"study next\" comes to it again.")
+            return False
+        if saved == "no":
+            session.say(f"navvi: {person.name}: the {self} was ended by the person, and nothing is saved.")
+        return session.done(person.name, self, saved=saved)
