@@ -19,7 +19,7 @@ SHOWN = [(re.compile(pattern), text) for pattern, text in [
     (r"^\[ *ERROR\] \[[^]]*\]: (.*)", r"error: \1"),
     (r"^\[ *WARN\] \[[^]]*\]: (.*)", r"warning: \1"),
     (r"^\[ *INFO\] \[[^]]*\]: ((?:Trial [^ ]* has begun|Trial ended).*)", r"\1"),
-    (r"^\[ *INFO\] \[[^]]*\]: Found: (.*)", r"found and saved: \1"),
+    (r"^\[ *INFO\] \[[^]]*\]: Found: (.*)", r"found: \1"),
     (r"^process has finished cleanly", "the session has ended."),
     (r"^process has died .*exit code ([-0-9]+),.* __name:=(\w+).*", r"error: \2 has ended with exit code \1."),
     (r".*REQUIRED process \[(?!trial_node)([a-z_]*)[^]]*\] has died!.*", r"\1 has ended, and the session with it."),

@@ -12,8 +12,8 @@ import pytest
 
 from conftest import free_port
 from sessions import ROOT, eventually
-from navvi_cli import arguments, network, parser, session, trials, worlds
-from navvi_cli.commands import check, replay, robot, run, show, tutorial
+from navvi_cli import arguments, lessons, network, parser, session, trials, worlds
+from navvi_cli.commands import calibrate, check, replay, robot, run, show, tutorial
 from navvi_cli.main import command_names, parser_of
 from navvi_cli.say import Failure, fail
 
@@ -260,7 +260,7 @@ def test_a_port_on_which_anybody_listens_is_not_ours(locks):
 
 @pytest.mark.parametrize("line, shown", [
     ("[ INFO] [1.0]: Trial t has begun: goal at 1, 2.", "navvi: Trial t has begun: goal at 1, 2."),
-    ("[ INFO] [1.0]: Found: stopping_delay 0.3.", "navvi: found and saved: stopping_delay 0.3."),
+    ("[ INFO] [1.0]: Found: stopping_delay 0.3.", "navvi: found: stopping_delay 0.3."),
     ("\x1b[33m[ WARN] [1.0]: slow\x1b[0m", "navvi: warning: slow"),
     ("[ERROR] [1.0, 2.0]: bad", "navvi: error: bad"),
     ("\x1b]2;title\x07[ INFO] [1.0]: noise", ""),
@@ -331,6 +331,19 @@ def test_what_nodes_log_lies_beside_the_sessions_log(tmp_path, monkeypatch):
     nothing = types.SimpleNamespace(path="a.launch", preload=lambda: "", locks=[])
     assert session.Launch(nothing, {}, tmp_path / "session-1.log", nothing).run()
     assert (tmp_path / "session-1.log").read_text() == f"logs in {tmp_path}/session-1\n"
+
+
+@pytest.mark.parametrize("interrupted, code", [(True, 130), (False, 0)])
+def test_a_calibration_that_was_stopped_is_not_told_as_done(interrupted, code, tmp_path, monkeypatch):
+    given = []
+    launch = types.SimpleNamespace(run=lambda: True, interrupted=interrupted)
+    for name, stand_in in ("has_pad", lambda: True), ("check_operator", lambda *_: None), ("prepare", lambda *_: None), ("Network", lambda: None), \
+            ("Launch", lambda _, words, *__: given.append(words) or launch):
+        monkeypatch.setattr(lessons, name, stand_in)
+    for words, record in ([], [f"feedback/record:={tmp_path}/calibrate-"]), (["feedback/record:=/tmp/own.csv"], ["feedback/record:=/tmp/own.csv"]):
+        assert (calibrate.run(types.SimpleNamespace(words=["person:=anna", f"out:={tmp_path}", *words])) or 0) == code
+        kept = [word for word in given[-1].parameters if "record" in word]
+        assert len(kept) == len(record) and kept[0].startswith(record[0])
 
 
 def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_goodbye(tmp_path, monkeypatch):
