@@ -263,17 +263,22 @@ def test_a_world_in_which_no_trial_began_may_be_replaced(work, tmp_path):
     assert rest(begun)[0] == "s1-c1-trial-1" and begun.runner.driven[0] == ("easy", 5)
 
 
-def test_a_trial_that_broke_off_does_not_count_though_a_crash_came_right_after_its_end(work, monkeypatch):
-    append = work.study.journal.append
+def crash_after_the_end(begun, monkeypatch):
+    """The next step of sub-01, whose row "end" is the last that is written."""
+    append = begun.study.journal.append
 
     def killed(kind, **fields):
         append(kind, **fields)
         if kind == "end":
             raise KeyboardInterrupt
-    monkeypatch.setattr(work.study.journal, "append", killed)
+    monkeypatch.setattr(begun.study.journal, "append", killed)
     with pytest.raises(KeyboardInterrupt):
-        work("aborted").next("sub-01")
+        begun.next("sub-01")
     monkeypatch.undo()
+
+
+def test_a_trial_that_broke_off_does_not_count_though_a_crash_came_right_after_its_end(work, monkeypatch):
+    crash_after_the_end(work("aborted"), monkeypatch)
     begun = work()
     assert rest(begun)[0] == "s1-c1-trial-1" and begun.runner.driven[0] == ("easy", 11)
     rows = table.trials(work.study, work.study.progress())
@@ -349,6 +354,14 @@ def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path, capsys):
     assert (people["sub-01"].done["s1-practice"]["mastered"], people["sub-02"].done["s1-practice"]["mastered"]) == (True, False)
     actions.exclude(exclusion(kept, f"sub-01/{people['sub-01'].attempts[0].trial}", "the phone rang"))
     assert "does not count: the phone rang.\n" in capsys.readouterr().out, "nothing is driven in its place"
+
+
+def test_practice_that_was_over_when_a_crash_came_goes_no_further(tmp_path, monkeypatch):
+    kept = frozen(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 1, collisions_at_most: 3, most: 2}\nlimit: 60"))
+    crash_after_the_end(begin(kept, "reached"), monkeypatch)
+    begun = begin(kept, "timeout")
+    assert begun.next("sub-01").kind == "practice" and begun.runner.driven == []
+    assert kept.progress().person("sub-01").done["s1-practice"]["mastered"] and begun.next("sub-01").kind == "trial"
 
 
 def test_nobody_drives_without_consent(tmp_path):
