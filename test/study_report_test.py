@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 import scipy.stats
 
-from small_study import Driver, begin, frozen, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
+from small_study import Driver, begin, exclusion, frozen, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
 from navvi_study import actions, analysis, figures, overview, preregistration, report, study, table, ways
 from navvi_study.analysis import MODELS, Analysis, Contrast
 from navvi_study.errors import StudyError
@@ -173,6 +173,23 @@ def test_a_column_without_a_value_is_not_shown():
 def test_replaced_is_what_another_trial_was_driven_for(work):
     rest(work("aborted", "aborted", "aborted"))
     assert [row[-1] for row in report.excluded(work.study.progress())] == ["yes", "yes", "no"], "the reserve is used up"
+
+
+def test_a_report_and_a_status_tell_nothing_of_who_was_erased_but_that_they_withdrew(tmp_path):
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\npractice: {worlds: {world: training, seeds: [3]}, most: 1}"))
+    begun = begin(kept, *["reached"] * 3, "timeout", "aborted", "aborted", "aborted")  # sub-02 masters no practice, and no world is left for a trial
+    for name in "sub-01", "sub-02":
+        rest(begun, name)
+    actions.exclude(exclusion(kept, f"sub-02/{kept.progress().person('sub-02').attempts[-1].trial}", "a secret"))
+
+    def told():
+        state = kept.progress()
+        return report.page(kept, state, rehearsed=False) + "\n".join(overview.status(kept, state)), report.trials(state), report.quality(kept, state)[-1][1]
+    before, rows, practice = told()
+    assert before.count("a secret") == 2 and sum(row[-1] for row in rows) == 2 and practice == "2 of 2"
+    actions.withdraw(words(kept, participant="sub-02", data="delete"))
+    after, rows, practice = told()
+    assert "a secret" not in after and "sub-02 has withdrawn." in after and sum(row[-1] for row in rows) == 0 and practice == "1 of 1"
 
 
 def test_a_report_does_not_deny_the_journal_of_a_trial_that_does_not_count(work):

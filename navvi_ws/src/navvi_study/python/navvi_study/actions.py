@@ -205,8 +205,8 @@ def withdraw(args):
     """Write that a participant has withdrawn, and delete or keep what there is.
 
     Deleted are trials, answers, notes and settings, and the tables and the export of
-    the study, which hold them too; the record keeps the code, and that it was
-    withdrawn.
+    the study, which hold them too; the journal keeps, by the code, times,
+    results, collisions, consent, practice mastered and reasons of exclusions.
 
     Exit codes
     0: written. 2: not planned, or withdrawn before.

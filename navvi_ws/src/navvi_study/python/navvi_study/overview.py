@@ -73,7 +73,7 @@ def status(study, progress):
         concealed = plan.order == "drawn" and not person.begun
         what = f"next is {step.name}{'' if concealed else f', {step}'}" if step else why_nothing(progress, person)[:-1]
         lines.append(f"{person.name}: {driven} of {len(trials)} trials; {'has not begun; ' if not person.begun else ''}{what}.")
-        for attempt in person.attempts:
+        for attempt in person.attempts if person in progress.kept else ():
             if attempt.dropped_out:
                 lines.append(f"  {person.name}/{attempt.trial} is a {attempt.excluded}.")
             elif attempt.excluded:

@@ -72,6 +72,11 @@ class Progress:
             if row["type"] not in ("freeze", "analysis", "loss"):
                 getattr(self, "_" + row["type"])(row)
 
+    @property
+    def kept(self):
+        """Those who have not withdrawn their data."""
+        return [person for person in self.people.values() if person.withdrawn != "delete"]
+
     def person(self, name):
         self.plan.group_of(name)  # a sentence where the plan lacks it
         return self.people[name]

@@ -109,7 +109,7 @@ def trials(progress):
         kind = 4 if person.excluded else 3 if attempt.dropped_out else 4 if not attempt.counts else 1 if attempt.result == "reached" else 2
         for at in (0, kind):
             rows[step.condition][at] += 1
-    for person in progress.people.values():
+    for person in progress.kept:
         for step in progress.missing(person):
             rows[step.condition][5] += 1
     return [[name, *counts] for name, counts in rows.items()]
@@ -127,8 +127,7 @@ def legs(study, progress):
 
 def driven(progress, kind):
     """(person, step, attempt) of each trial of that kind of step, of those who have not withdrawn their data."""
-    return [(person, step, attempt) for person in progress.people.values() if person.withdrawn != "delete"
-            for step in person.steps if step.kind == kind for attempt in person.of(step) if attempt.trial]
+    return [(person, step, attempt) for person in progress.kept for step in person.steps if step.kind == kind for attempt in person.of(step) if attempt.trial]
 
 
 def besides(progress):
@@ -139,7 +138,7 @@ def besides(progress):
 def excluded(progress):
     return [[f"{person.name}/{attempt.trial}", attempt.step, attempt.excluded, attempt.excluded_by,
              "yes" if any(other.trial and other.replaces == attempt.trial for other in person.attempts) else "no"]
-            for person in progress.people.values() for attempt in person.attempts if attempt.excluded]
+            for person in progress.kept for attempt in person.attempts if attempt.excluded]
 
 
 def shown(value):
@@ -307,7 +306,7 @@ def quality(study, progress):
 
     def total(column):
         return sum(number(row.get(column)) or 0 for row in rows)
-    practice = [row for person in progress.people.values() for row in person.done.values() if "mastered" in row]
+    practice = [row for person in progress.kept for row in person.done.values() if "mastered" in row]
     versions = collections.Counter(row.get("version", "n/a") for row in rows)
     bags = collections.Counter(row.get("bag", "n/a") for row in rows)
     return [["trials", len(rows)], ["messages missed", shown(total("missed_messages"))], ["safe stops", shown(total("safe_stop_count"))],
