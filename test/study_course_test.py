@@ -412,6 +412,13 @@ def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, tmp_path):
         study.Study(work.study.plan)
     home.unlink()
     (tmp_path / "moved").rename(home)
+    (work.study.folder / "bids").symlink_to(tmp_path / "shared")
+    (tmp_path / "shared/sub-01").mkdir(parents=True)
+    for attempt in (lambda: study.Study(work.study.plan), lambda: export.write(work.study, work.study.progress(), export.way_of)):
+        with pytest.raises(StudyError, match="bids cannot be deleted"):
+            attempt()
+    assert [row["type"] for row in work.study.journal.rows()][-1] == "withdraw"
+    (work.study.folder / "bids").unlink()
     again = [study.Study(work.study.plan) for _ in range(2)][-1]  # after a crash, any command, and the next
     assert not again.home("sub-01").exists()
     assert [row["type"] for row in again.journal.rows()][-2:] == ["withdraw", "erased"], "once"
@@ -434,10 +441,14 @@ def test_no_table_and_no_export_holds_who_has_withdrawn(work, monkeypatch, capsy
 
     def holding(name):
         return {path.name for path in work.study.folder.rglob("*.?sv") if name in path.read_text() or name in path.name}
+    holders = {"report.html", "report-blind.html", "report.html.new", "time.svg", "time-blind.svg", "trials.csv.new"}
     for delete, left in ("keep", {"trials.csv", "answers.csv", "events.csv", "participants.tsv"}), ("delete", set()):
         actions.table(words(work.study))
         actions.export(words(work.study, bids=True))
+        for name in holders:
+            (work.study.folder / name).write_text("a line of sub-02")
         actions.withdraw(words(work.study, participant="sub-02", data=delete))
+        assert holders & {path.name for path in work.study.folder.iterdir()} == (holders if delete == "keep" else set())
         assert holding("sub-02") >= left and (left or not holding("sub-02")), delete
     assert "\"study report\" and \"study export\" write those anew" in capsys.readouterr().out
     actions.table(words(work.study))

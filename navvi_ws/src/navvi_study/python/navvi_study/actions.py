@@ -204,8 +204,8 @@ def exclude(args):
 def withdraw(args):
     """Write that a participant has withdrawn, and delete or keep what there is.
 
-    Deleted are trials, answers, notes and settings, and the tables and the export of
-    the study, which hold them too; the journal keeps, by the code, times,
+    Deleted are trials, answers, notes and settings, and the study's tables, figures,
+    reports and export, which hold them too; the journal keeps, by the code, times,
     results, collisions, consent, practice mastered and reasons of exclusions.
 
     Exit codes
@@ -218,7 +218,7 @@ def withdraw(args):
     with study.claimed(person.name):
         study.journal.append("withdraw", participant=person.name, data=args.data)
     study.finish_erasing()
-    deleted = "deleted, with tables and export of the study; \"study report\" and \"study export\" write those anew, of the others"
+    deleted = "deleted, with tables, figures, reports and export of the study; \"study report\" and \"study export\" write those anew, of the others"
     print(f"navvi: {person.name} has withdrawn; what was recorded is {deleted if args.data == 'delete' else 'kept'}.")
     if study.unrecorded():
         print("navvi: the journal has lost rows; withdraw again once it is restored from a copy.")

@@ -6,12 +6,11 @@ import io
 import json
 import math
 import re
-import shutil
 
 from . import table
 from .errors import StudyError
 from .record import Record
-from .study import write_safely
+from .study import delete, write_safely
 
 RATE = 20.0  # Hz, of the way; odometry comes at another, even rate
 VERSION = "1.10.0"
@@ -32,7 +31,7 @@ def write(study, progress, read_way):
         for name in names:
             if (other := first.setdefault(label(name), name)) != name:
                 raise StudyError(f"{plan.file}: {other} and {name} would both be {label(name)} in BIDS, which allows letters and digits.")
-    shutil.rmtree(folder, ignore_errors=True)
+    delete(folder, "it is written anew")
     _json(folder / "dataset_description.json", {"Name": plan.title, "BIDSVersion": VERSION, "DatasetType": "raw",
                                                 "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})
     write_safely(folder / "README", f"{plan.title}\n\nA robot in a simulated warehouse, driven by a person who is guided by touch, speech and sounds. "

@@ -266,11 +266,10 @@ class Study:
         for person in self.progress().people.values():
             if person.withdrawn == "delete" and not person.erased:
                 for path in (self.home(person.name), self.folder / "bids"):
-                    shutil.rmtree(path, ignore_errors=True)
-                for name in ("trials", "answers", "events"):
-                    (self.folder / f"{name}.csv").unlink(missing_ok=True)
-                if self.home(person.name).exists():
-                    raise StudyError(f"{self.home(person.name)} cannot be deleted, and the withdrawal asks for it; delete it.")
+                    delete(path, "the withdrawal asks for it")
+                for name in ("trials.csv", "answers.csv", "events.csv", "report*.html", "*.svg"):
+                    for path in (*self.folder.glob(name), *self.folder.glob(name + ".new")):  # of a crash
+                        path.unlink(missing_ok=True)
                 self.journal.append("erased", participant=person.name)
 
 
@@ -287,6 +286,13 @@ def _read_frozen(path):
     with contextlib.suppress(OSError, ValueError, LookupError, TypeError):
         values = json.loads(path.read_bytes())
         return {key: values[key] for key in ("hash", "plan")}
+
+
+def delete(folder, why):
+    """Raises StudyError where it is there still: a link, or of another user."""
+    shutil.rmtree(folder, ignore_errors=True)
+    if os.path.lexists(folder):
+        raise StudyError(f"{folder} cannot be deleted, and {why}; delete it, with what it links to.")
 
 
 def write_safely(path, content):
