@@ -120,7 +120,7 @@ def test_D5_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_pat
     assert [row["counts"] for row in rows if row["participant"] in ("sub-01", "sub-02") and row["condition"] == "plain"] == ["drop-out"] * 2
     assert [row["counts"] for row in rows if row["participant"] == "sub-03" and row["condition"] == "plain"] == ["no", "yes"]
     assert {row["excluded_by"] for row in rows if row["counts"] == "drop-out"} == {"rule"}
-    assert sum("a drop-out, ended by the" in line for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
+    assert sum("a drop-out, ended by the" in line and line.endswith("if one is left.") for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
     lines = overview.status(kept, kept.progress())
     assert any("is a drop-out: ended by the person." in line for line in lines) and not any("without a trial" in line for line in lines)
     analysis = Analysis(kept, kept.progress())
@@ -336,6 +336,25 @@ def test_exclusions_are_rows_and_nothing_is_deleted(work, capsys):
     assert rest(begun) == ["s1-c1-trial-1"] and begun.runner.driven == [("easy", 11)]
     row = work.study.journal.rows()[-3]
     assert row["type"] == "exclude" and row["reason"] == "the phone rang" and row["by"] == getpass.getuser()
+
+
+@pytest.mark.parametrize("results, before, no_replacement, comes", [
+    ((), None, False, True), ((), None, True, False), (("aborted", "aborted"), None, False, False),
+    ((), lambda kept: actions.exclude(exclusion(kept, "sub-01", "was ill")), False, False),
+    ((), lambda kept: actions.withdraw(words(kept, participant="sub-01", data="keep")), False, False)],
+    ids=["one_is_left", "none_is_wanted", "none_is_left", "excluded", "withdrawn"])
+def test_an_exclusion_promises_another_world_only_where_one_comes(tmp_path, capsys, results, before, no_replacement, comes):
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3, 4]}}"))
+    begun = begin(kept, "reached", *results)
+    begun.runner.ask = lambda *_: None  # broken off
+    for _ in range(2 + len(results)):
+        begun.next("sub-01")
+    if before:
+        before(kept)
+    actions.exclude(words(kept, what=f"sub-01/{kept.progress().person('sub-01').attempts[-1].trial}", reason="a siren", no_replacement=no_replacement))
+    driven = len(begun.runner.driven)
+    begun.next("sub-01")
+    assert ("Another world takes its place." in capsys.readouterr().out) == comes == (len(begun.runner.driven) > driven)
 
 
 def test_when_the_reserve_is_used_up_the_trial_is_missing_and_the_rest_goes_on(work):

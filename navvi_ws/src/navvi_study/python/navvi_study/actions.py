@@ -196,7 +196,8 @@ def exclude(args):
     study.journal.append("exclude", participant=person.name, step=attempt.step, attempt=attempt.number, trial=attempt.trial, reason=reason,
                          rule=False, replace=not args.no_replacement)
     state = study.progress()
-    over = person.step(attempt.step).finished(state, state.person(person.name))  # also of practice, and of a probe that was asked about
+    person, step = state.person(person.name), person.step(attempt.step)
+    over = args.no_replacement or state.next(person) is None or step.finished(state, person) or step.given_up(state, person)  # also of practice and probes
     print(f"navvi: {person.name}/{attempt.trial} does not count: {reason}." + ("" if over else " Another world takes its place."))
 
 

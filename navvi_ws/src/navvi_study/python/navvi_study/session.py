@@ -69,7 +69,7 @@ class Session:
             self.say(f"navvi: {name}: {row['result']}, {row['elapsed_s']} s; the record is in {path}.")
         if verdict.get("drop_out"):
             self.say(f"navvi: {name}: a {verdict['excluded'].replace(':', ',')}; nothing takes its place. If that had nothing to do with the person "
-                     f"or the condition: ./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does.")
+                     f"or the condition: ./navvi study exclude {self.study.plan.file} {name}/{trial} --reason TEXT; then a world of the reserve does, if one is left.")
         elif verdict:
             self.say(f"navvi: {name}: the trial does not count: {verdict['excluded']}.")
         return True
