@@ -315,6 +315,18 @@ def test_a_calibration_that_failed_comes_again(tmp_path):
     assert "ended by the person, and nothing is saved" in said[-1]
 
 
+@pytest.mark.parametrize("lesson, change", [("calibrate", ("limit: 60", "limit: 60\ncalibrate: true")), ("questionnaire", ("{after_condition", "{at_begin"))])
+def test_what_a_lesson_logs_lies_with_all_else_of_the_participant(tmp_path, lesson, change):
+    """There a withdrawal deletes it, also where the lesson was killed."""
+    kept = frozen(tmp_path, ("operator: simulated", "operator: pad"), change)
+    live = runner.LiveRunner(kept, tmp_path / "navvi", "true")
+    Path(live.navvi).write_text(f"#!/bin/sh\nprintf '%s\\n' \"$@\" > {tmp_path}/given\n")
+    Path(live.navvi).chmod(0o755)
+    session.Session(kept, live, lambda line: None, wait=False).next("sub-01")
+    given = (tmp_path / "given").read_text().splitlines()
+    assert given[0] == lesson and f"out:={kept.home('sub-01')}" in given
+
+
 def test_a_session_that_was_killed_is_adopted_with_what_it_left(work):
     with pytest.raises(KeyboardInterrupt):
         work("killed").next("sub-01")

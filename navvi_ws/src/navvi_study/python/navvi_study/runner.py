@@ -86,7 +86,7 @@ class LiveRunner:
         record = script.with_suffix(".csv")
         write_safely(script, questionnaire.script(items, step.asks.title, step.asks.intro))
         self._run(["questionnaire", f"feedback/questions:={script}", f"feedback/record:={record}", f"person:={participant}",
-                   f"operator:={self.study.plan.operator}"], participant, lock)
+                   f"operator:={self.study.plan.operator}", f"out:={self.study.home(participant)}"], participant, lock)
         keep_answers(record, items, answered)
 
     def pause(self):

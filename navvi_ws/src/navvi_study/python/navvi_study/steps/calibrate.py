@@ -18,9 +18,10 @@ class Calibrate(Step):
         return [cls.at(place, "calibrate")] if place.plan.steps["calibrate"] and place.session == 1 else []
 
     def run(self, session, progress, person, lock):
-        record = session.study.home(person.name) / "calibrate.csv"
+        home = session.study.home(person.name)  # of the logs, too: they hold what is said to the person
+        record = home / "calibrate.csv"
         record.unlink(missing_ok=True)
-        code = session.runner.command(["calibrate", f"person:={person.name}", f"feedback/record:={record}"], person.name, lock)
+        code = session.runner.command(["calibrate", f"person:={person.name}", f"out:={home}", f"feedback/record:={record}"], person.name, lock)
         saved = {row.get("measured"): row.get("value") for row in rows_of(record)}.get("saved")
         if code or code == 0 and not saved:
             session.say(f"navvi: {person.name}: the {self} broke off; the next \"study next\" comes to it again.")
