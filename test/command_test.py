@@ -346,17 +346,18 @@ def test_a_calibration_that_was_stopped_is_not_told_as_done(interrupted, code, t
         assert len(kept) == len(record) and kept[0].startswith(record[0])
 
 
-def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_goodbye(tmp_path, monkeypatch):
+@pytest.mark.parametrize("tells, contacts", [(False, "unknown"), (True, "counted")])
+def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_goodbye(tells, contacts, tmp_path, monkeypatch):
     def finish(seconds):
         if seconds > 3.0:
             raise KeyboardInterrupt
     driven = []
-    monkeypatch.setattr(run, "FarNetwork", lambda _: types.SimpleNamespace(clock=lambda: "/navvi/clock", tells_contacts=False,
+    monkeypatch.setattr(run, "FarNetwork", lambda _: types.SimpleNamespace(clock=lambda: "/navvi/clock", tells_contacts=tells,
                                                                            near=types.SimpleNamespace(finish=finish)))
     monkeypatch.setattr(run, "prepare", lambda *_: None)
     monkeypatch.setattr(run, "drive", lambda _, words, *__: driven.append(words) or 0)
     assert run.far_session(["robot:=r", "operator:=simulated", "rviz:=false", f"out:={tmp_path}"]) == 0
-    assert driven[0]["contacts"] == "unknown", "nothing tells of them there"
+    assert driven[0]["contacts"] == contacts, "which its master says"
 
 
 # --- the end of a session, and what its record says

@@ -169,6 +169,14 @@ def test_the_robots_frames_and_radius_reach_who_reads_them():
         **{f"/{node}_node/odom_frame": "tb3/odom" for node in ("trial", "nav", "perception", "feedback")}}.items()
 
 
+@pytest.mark.parametrize("words, contacts", [
+    ("robot.launch", "unknown"), ("robot.launch sensors:=false", "unknown"), ("robot.launch bumper:=/bumper", "counted"),
+    ("person.launch clock:=/navvi/clock", "unknown"), ("person.launch clock:=/navvi/clock contacts:=counted", "counted"),
+    ("person.launch clock:=/clock", "counted"), ("live.launch", "counted")])
+def test_contacts_are_counted_only_where_something_tells_of_them(words, contacts):
+    assert yaml.safe_load(roslaunch("--dump-params", *words.split()))["/trial_node/contacts"] == contacts
+
+
 def test_a_rehearsal_reaches_no_wheels():
     words = roslaunch("--args relay_node", "robot.launch", "rehearse:=true", "wheels:=/robot/cmd_vel")
     assert " cmd_vel:=/navvi/rehearsed_cmd_vel" in words and ":=/robot/cmd_vel" not in words

@@ -88,8 +88,7 @@ def far_session(given):
     network = FarNetwork(where)
     words["patience"] = "900"  # over a slow connection nodes take their time to meet
     words["clock"] = network.clock()
-    if not network.tells_contacts:  # it has no bumper
-        words.setdefault("contacts", "unknown")
+    words.setdefault("contacts", "counted" if network.tells_contacts else "unknown")  # without a bumper
     try:
         return drive(launch_file, words, network, f"the robot at {where}")
     finally:
