@@ -23,7 +23,8 @@ SHOWN = [(re.compile(pattern), text) for pattern, text in [
     (r"^process has finished cleanly", "the session has ended."),
     (r"^process has died .*exit code ([-0-9]+),.* __name:=(\w+).*", r"error: \2 has ended with exit code \1."),
     (r".*REQUIRED process \[(?!trial_node)([a-z_]*)[^]]*\] has died!.*", r"\1 has ended, and the session with it."),
-    (r"^\[([a-z_]*)-[0-9]*\] process has died \[.*exit code ([-0-9]*).*", r"warning: \1 has ended with exit code \2 and is started anew."),
+    (r"^\[([a-z_]*)-[0-9]*\] process has died \[.*exit code ([-0-9]*).*", r"warning: \1 has ended with exit code \2."),
+    (r"^\[([a-z_]*)-[0-9]*\] restarting process", r"\1 is started anew."),
     (r"^RLException: (.*)", r"error: \1"),
 ]]
 FATAL = re.compile(r"FATAL|RLException")

@@ -269,7 +269,8 @@ def test_a_port_on_which_anybody_listens_is_not_ours(locks):
     ("process has died [pid 7, exit code -11, cmd /lib/trial_node _out:=/tmp __name:=trial_node __log:=a.log].",
      "navvi: error: trial_node has ended with exit code -11."),
     ("REQUIRED process [sim_node-5] has died!", "navvi: sim_node has ended, and the session with it."),
-    ("[nav_node-2] process has died [pid 7, exit code -11, cmd x].", "navvi: warning: nav_node has ended with exit code -11 and is started anew."),
+    ("[nav_node-2] process has died [pid 7, exit code -11, cmd x].", "navvi: warning: nav_node has ended with exit code -11."),
+    ("[nav_node-2] restarting process", "navvi: nav_node is started anew."),
     ("RLException: no such file", "navvi: error: no such file"),
 ])
 def test_of_all_that_is_printed_a_person_reads_what_matters(line, shown, tmp_path, capfd):

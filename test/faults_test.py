@@ -149,7 +149,7 @@ def test_M2_a_guide_whose_name_is_taken_comes_back_and_leads_on(node, run):
         begun.wait_until(lambda: twin.poll() is not None, 20, "the name is the guide's again")
     said = begun.wait_until_ended(180)
     assert f"error: Another node has taken the name /{node}, so this one ends." in said
-    assert f"warning: {node} has ended with exit code 3 and is started anew." in said
+    assert f"warning: {node} has ended with exit code 3.\n" in said and f"navvi: {node} is started anew.\n" in said, said[-2000:]
     assert ended(begun)[0] == "reached", said[-2000:]
 
 
