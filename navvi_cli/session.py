@@ -158,7 +158,7 @@ class Launch:
         locks = [*network.locks, *map(int, os.environ.get("NAVVI_LOCKS", "").split())]
         self.process = subprocess.Popen([*END_WITH_US, "sh", "-c", "export NAVVI_LAUNCHER=$$; exec \"$@\"", "sh", str(SHELL.with_name("roslaunch")),
                                          str(launch_file.path), *(f"{name}:={value}" for name, value in words.items())], env=env, pass_fds=locks,
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)  # rosbag play takes keys
 
     def run(self):
         """Whether roslaunch ended in order. A terminal sends Ctrl-C to roslaunch, too; other signals are handed on."""

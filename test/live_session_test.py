@@ -2,6 +2,7 @@
 import datetime
 import difflib
 import os
+import pty
 import re
 import shutil
 import signal
@@ -20,7 +21,7 @@ from octomap_msgs.msg import Octomap
 
 import hearing
 from display import Display
-from sessions import DARK, ROOT, WORLD, Command, Session, navvi, rows_of, sound, summary
+from sessions import DARK, ROOT, WORLD, Command, Programs, Session, eventually, navvi, rows_of, sound, summary
 
 TOPICS = {
     "/clock", "/tf", "/tf_static", "/odom", "/octomap_binary", "/occupied_cells_vis_array", "/navvi/scene",
@@ -298,3 +299,23 @@ def test_a_recorded_trial_plays_again(session, trial, tmp_path):
     shown = places_shown(trial, scenes)
     assert len(shown) > 10
     assert all((at.x, at.y) == (was.x, was.y) for at, was in shown)
+
+
+def test_a_replay_in_a_terminal_pauses_and_goes_on_by_a_key(trial, tmp_path):
+    terminal, its_end = pty.openpty()
+    said = tmp_path / "said"
+
+    def press():
+        """What comes of p and Enter."""
+        def told():
+            return re.findall("is paused|goes on|does not answer", said.read_text())
+        before = told()
+        os.write(terminal, b"p\n")
+        return "".join(eventually(lambda: told()[len(before):], 20))
+    with Programs(dict(DARK, ALSOFT_DRIVERS="null"), said) as programs:
+        programs.start(ROOT / "navvi", "replay", trial, "rate:=0.5", "rviz:=false", stdin=its_end)
+        assert eventually(lambda: said.exists() and "p and Enter" in said.read_text(), 300)
+        assert eventually(lambda: time.sleep(0.5) or press() == "is paused", 60), said.read_text()
+        assert press() == "goes on", said.read_text()
+    os.close(its_end)
+    os.close(terminal)
