@@ -215,11 +215,16 @@ def test_each_line_is_spoken_and_the_next_waits_until_it_was(trial, spoken):
     assert all(after - before > 0.45 for before, after in zip(times, times[1:]))
 
 
-def test_lines_go_on_without_speech_where_speech_dispatcher_ends(trial, spoken):
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSTOP])
+def test_lines_go_on_without_speech_where_speech_dispatcher_ends_or_halts(how, trial, spoken):
     watching = Command("watch", trial, "pace:=0", "speech:=true", SPEECHD_ADDRESS=f"unix_socket:{spoken}/socket", SPEECHD_CMD="/nonexistent")
     assert eventually((spoken / "spoken").exists, 60)
-    os.kill(int((spoken / "pid/speech-dispatcher.pid" if (spoken / "pid").is_dir() else spoken / "pid").read_text()), signal.SIGKILL)
-    lines = watching.wait_until_ended(60).splitlines()
+    process = int((spoken / "pid/speech-dispatcher.pid" if (spoken / "pid").is_dir() else spoken / "pid").read_text())
+    os.kill(process, how)
+    try:
+        lines = watching.wait_until_ended(60).splitlines()
+    finally:
+        os.kill(process, signal.SIGCONT)
     assert [line for line in lines if line in LINES] == LINES and lines[-1] == "The trial's record ends here."
     assert lines.count("speech-dispatcher does not answer; the lines go on without speech.") == 1, lines
 

@@ -12,6 +12,7 @@ import sys
 import threading
 import time
 from collections import namedtuple
+from multiprocessing.pool import ThreadPool
 
 from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent, TrialState
 
@@ -177,12 +178,15 @@ class Pacer:
 
 
 class Voice:
-    """speech-dispatcher. One that ends while it speaks never says that it is through."""
-    LONGEST = 20.0  # s, of a line
+    """speech-dispatcher. One that ends while it speaks never says that it is through; for one that ends or halts before it answers, its client
+    waits for ever, so that runs in a thread."""
+    LONGEST = 20.0  # s, of a line, and of the start
+    ANSWER = 5.0    # s, to take a line
 
     def __init__(self):
         import speechd
-        self.client = speechd.SSIPClient("navvi-watch")
+        self.thread = ThreadPool(1)
+        self.client = self.thread.apply_async(speechd.SSIPClient, ["navvi-watch"]).get(self.LONGEST)
         self.ends = (speechd.CallbackType.END, speechd.CallbackType.CANCEL)
         self.silent, self.began = threading.Event(), 0.0
         self.silent.set()
@@ -194,7 +198,8 @@ class Voice:
     def say(self, text):
         self.silent.clear()
         self.began = time.monotonic()
-        self.client.speak(text, callback=lambda *_, **__: self.silent.set(), event_types=self.ends)
+        end = {"callback": lambda *_, **__: self.silent.set(), "event_types": self.ends}
+        self.thread.apply_async(self.client.speak, [text], end).get(self.ANSWER)
 
     def close(self):
         while not self.free():
@@ -296,7 +301,7 @@ def main():
     try:
         screen = Screen(speech)
     except Exception as problem:  # of many kinds, all of them: there is no speech-dispatcher
-        print(f"navvi: speech-dispatcher cannot be used: {problem}. speech:=false shows the lines alone.", file=sys.stderr)
+        print(f"navvi: speech-dispatcher cannot be used: {str(problem) or 'it does not answer'}. speech:=false shows the lines alone.", file=sys.stderr)
         return 2
     pacer = Pacer(words_per_minute, may_leave_out=folder is None)
     status = 0
