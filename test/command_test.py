@@ -13,7 +13,7 @@ import pytest
 from conftest import free_port
 from sessions import ROOT, eventually
 from navvi_cli import arguments, lessons, network, parser, session, trials, worlds
-from navvi_cli.commands import calibrate, check, replay, robot, run, show, tutorial
+from navvi_cli.commands import bench, calibrate, check, replay, robot, run, show, tutorial
 from navvi_cli.main import command_names, parser_of
 from navvi_cli.say import Failure, fail
 
@@ -454,6 +454,15 @@ def test_the_table_of_a_tutorial_is_kept_with_its_own_trial(tmp_path):
         (tmp_path / name / "summary.csv").touch()
     tutorial.keep("step,tries,seconds,passed,practice\nlet_go,1,3.6,yes,no\n", tmp_path, ["trial-1"])
     assert [path.parent.name for path in tmp_path.glob("*/tutorial.csv")] == ["trial-1"]
+
+
+@pytest.mark.parametrize("name", bench.benchmarks())
+def test_each_benchmark_is_run_by_the_name_that_a_refusal_lists(name, monkeypatch):
+    ran = []
+    for word in "shell", "build", "enter":
+        monkeypatch.setattr(bench, word, lambda *_: None)
+    monkeypatch.setattr(bench, "show", lambda path, *_: ran.append(path.stem) or 0)
+    assert bench.run(types.SimpleNamespace(filter=name, words=["DIR"])) == 0 and ran == [name.partition("/")[2]]
 
 
 def test_a_replay_has_the_voice_and_the_mesh_of_the_record_and_nothing_else(tmp_path):

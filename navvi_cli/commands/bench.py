@@ -55,7 +55,7 @@ def run(args):
     known = benchmarks()
     chosen = {name: path for name, path in known.items() if args.filter in name and name not in ALONE}
     # That whose own name it is, not all others of its package.
-    chosen = {name: path for name, path in known.items() if path.stem == f"{args.filter}_bench"} or chosen
+    chosen = {name: path for name, path in known.items() if path.stem == f"{args.filter}_bench" or name == args.filter} or chosen
     if not chosen:
         fail(f"no benchmark's name contains \"{args.filter}\"; allowed are parts of: {' '.join(known)}", 2)
     for word in args.words:
