@@ -3,6 +3,7 @@ import itertools
 import os
 import pty
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -13,7 +14,7 @@ import rosbag
 import rospy
 from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent, TrialState
 
-from sessions import DARK, ROOT, Command, Programs, eventually
+from sessions import DARK, ROOT, Command, Programs, eventually, navvi, sourced
 from navvi_study import watch
 
 pytestmark = pytest.mark.accessibility
@@ -116,16 +117,28 @@ def test_of_a_bag_that_lost_its_beginning_the_rest_is_told(tmp_path):
                           "The trial's record ends here."]
 
 
+@pytest.fixture(scope="module")
+def record(tmp_path_factory):
+    """The folder of a whole trial."""
+    out = tmp_path_factory.mktemp("record")
+    done = sourced(ROOT / "navvi_ws/devel/lib/navvi_study/trials_bench", "--world=training", "--seeds=1", "--records=all", f"--out={out}")
+    assert done.returncode == 0, done.stderr
+    return out / "trial-training-1"
+
+
 @pytest.mark.parametrize("damage", [
     lambda data: data[:len(data) // 2], lambda data: data[:-10], lambda data: data[:100], lambda data: b"",
     lambda data: data[:-300] + bytes(300), lambda data: data[:4117] + bytes(200) + data[4317:],
 ], ids=["half", "tail", "head", "empty", "zeros_at_the_end", "zeros_within"])
-def test_R2_a_damaged_bag_ends_in_a_sentence(damage, trial):
-    bag = trial / "trial.bag"
+def test_R2_a_damaged_bag_ends_in_a_sentence(damage, record, tmp_path):
+    bag = shutil.copytree(record, tmp_path / "trial") / "trial.bag"
     bag.write_bytes(damage(bag.read_bytes()))
-    result = subprocess.run([sys.executable, watch.__file__, "0", "false", str(trial)], capture_output=True, text=True, timeout=60)
+    result = subprocess.run([sys.executable, watch.__file__, "0", "false", str(bag.parent)], capture_output=True, text=True, timeout=60)
     assert result.returncode == 2, result.stdout + result.stderr
     assert len(result.stderr.splitlines()) == 1 and f"{bag} is damaged and cannot be read" in result.stderr, result.stderr
+    result = navvi("replay", bag.parent, "rviz:=false", "speech:=false")
+    assert result.returncode == 2, result.stdout + result.stderr
+    assert "Nothing can be counted again from the bag" in result.stderr and "this trial cannot be replayed" in result.stderr, result.stderr
 
 
 def lines_of(*words):

@@ -6,8 +6,8 @@ the journal can be named so, in small letters, or a time such as --at=73. In a
 terminal, p and Enter pauses and goes on, s and Enter goes on for a second.
 
 Exit codes
-0: replayed. 1: bag and summary differ, or the bag is damaged. 2: a wrong
-argument, or no such trial.
+0: replayed. 1: bag and summary differ. 2: a wrong argument, no such trial, or
+a damaged bag.
 
 Examples
 ./navvi replay trials/trial-20260101T120000Z skip:=30
@@ -51,7 +51,7 @@ def run(args):
     enter()
     status = show(program("navvi_study", "count_trial"), "bag", args.trial)
     if status > 1:
-        fail("this trial cannot be replayed; see above. rosbag reindex may mend a bag that was cut off.")
+        fail("this trial cannot be replayed; see above. rosbag reindex may mend a bag that was cut off.", 2)
     if onset is not None:
         words["skip"] = f"{skip_of(args.trial, onset):.2f}"
     if float(words.get("skip", 0)) >= (length := length_of(args.trial)):
