@@ -1,4 +1,5 @@
 """The last line of a test run must be able to say that something failed."""
+import contextlib
 import os
 import re
 import subprocess
@@ -8,6 +9,7 @@ import pytest
 
 import count_results
 import run_tests
+import sessions
 from sessions import ROOT
 
 SCRIPT = ROOT / "test/count_results.py"
@@ -79,9 +81,19 @@ def test_what_fails_where_others_hold_the_processors_is_left_out_unless_it_fails
     try:
         late = "date '+E   %N s late'; sleep 1; exit 1"
         _, found = run_ctest(run_tests.BUSY, steady="true", late=late, wrong="echo 'E   at 0x7f'; sleep 1; exit 1")
+        assert sessions.crowd() > 1.0
     finally:
         for loop in loops:
             loop.kill()
             loop.wait()
     assert {name: outcome for name, (outcome, _) in found.items()} == {"steady": "passed", "late": "skipped", "wrong": "failed"}, found
     assert re.match(r"other programs held (\d\d|100)% of this machine's processors", found["late"][1])
+
+
+@pytest.mark.parametrize("seconds, beside, why", [
+    (1.0, 0.0, None), (1.1, 0.9, r"lost, beside 0\.9 a processor(?!:)"), (1.9, 1.1, None), (1.9, 9.0, None), (2.1, 3.0, r"lost, beside 3\.0 a processor(?!:)"),
+    (2.1, 9.0, "lost, beside 9.0 a processor: too busy to judge")])
+def test_a_bound_counts_twice_beside_a_load_and_never_more(seconds, beside, why, monkeypatch):
+    monkeypatch.setattr(sessions, "crowd", lambda: beside)
+    with pytest.raises(AssertionError, match=why) if why else contextlib.nullcontext():
+        sessions.within(lambda *_: None, "lost", seconds, 1.0)

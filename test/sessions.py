@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import signal
+import statistics
 import subprocess
 import sys
 import threading
@@ -25,12 +26,21 @@ def eventually(condition, seconds=60):
     return found
 
 
+def crowd():
+    """Threads that run or wait for a processor, but this one, for each processor: now, not in the last minute as the load has it."""
+    running = []
+    for _ in range(25):
+        running.append(int(pathlib.Path("/proc/loadavg").read_text().split()[3].partition("/")[0]) - 1)
+        time.sleep(0.02)
+    return statistics.mean(running) / os.cpu_count()
+
+
 def within(record_property, what, seconds, bound):
-    """A bound of doc/faults.md on the wall clock in s, at least doubled where more runs than there are processors. `./navvi test faults` prints
-    the time."""
+    """A bound of doc/faults.md on the wall clock in s, doubled where more runs than there are processors. `./navvi test faults` prints the time."""
     record_property(what, f"{1000 * seconds:.0f} of {1000 * bound:.0f} ms")
-    crowd = os.getloadavg()[0] / os.cpu_count()
-    assert seconds <= bound * (max(2.0, crowd) if crowd > 1.0 else 1.0), what
+    if seconds > bound:
+        beside = crowd()
+        assert beside > 1.0 and seconds <= 2.0 * bound, f"{what}, beside {beside:.1f} a processor{': too busy to judge' if beside > 4.0 else ''}"
 
 
 def script(path):
