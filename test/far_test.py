@@ -11,7 +11,7 @@ import pytest
 
 import far
 from clock import Clock
-from sessions import ROOT, WORLD, eventually, summary
+from sessions import ROOT, WORLD, eventually, summary, within
 
 pytestmark = pytest.mark.skipif(not far.is_possible(), reason="network namespaces and TUN devices need the rights of root")
 
@@ -29,16 +29,18 @@ rospy.Subscriber("/odom", Odometry, lambda msg: tell(speed=msg.twist.twist.linea
 rospy.Subscriber("/navvi/link", LinkState, lambda msg: tell(round_trip=msg.round_trip, late=msg.late))
 rospy.spin()
 """
-# On the person's machine: a stick that is pushed while the word on its input says so.
+# On the person's machine: a stick that is pushed while the word on its input says so. It prints what is said.
 STICK = """
 import sys, threading, time
 import rospy
 from sensor_msgs.msg import Joy
+from navvi_msgs.msg import Cue
 rospy.init_node("stick", anonymous=True, disable_rostime=True)
 joy, push = rospy.Publisher("/joy", Joy, queue_size=1, tcp_nodelay=True), [0.0]
 def listen():
     for line in sys.stdin: push[0] = float(line)
 threading.Thread(target=listen, daemon=True).start()
+rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and cue.stage == Cue.QUEUED and print(cue.text, flush=True))
 while not rospy.is_shutdown():
     joy.publish(Joy(axes=[0.0, push[0]], buttons=[0, 0]))
     time.sleep(0.02)
@@ -139,12 +141,12 @@ def test_a_clock_of_the_person_that_is_wrong_is_set_and_drifts_changes_nothing(s
     assert 0.2 <= float(result["round_trip"]) < 0.5, result
 
 
-def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session):
+def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session, record_property):
     wire, lines = session.wire, []
     session.start(wire.person, "roslaunch", str(ROOT / "launch/person.launch"), "operator:=topic", "rviz:=false", "speech:=false",
                   "press_to_start:=false", f"out:={session.folder}", "feedback_parameters:={listener: topic}")
     observer = session.start(wire.robot, "/usr/bin/python3", "-c", OBSERVER, stdout=open(session.folder / "seen", "w"))
-    stick = session.start(wire.person, "/usr/bin/python3", "-c", STICK, stdin=subprocess.PIPE, text=True)
+    stick = session.start(wire.person, "/usr/bin/python3", "-c", STICK, stdin=subprocess.PIPE, stdout=open(session.folder / "said", "w"), text=True)
 
     def push(value):
         stick.stdin.write(f"{value}\n")
@@ -165,13 +167,14 @@ def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it
         wire.cut, at = True, time.monotonic()
         assert eventually(lambda: seen("state")[-1][1] == 2, 2)
         stopped = next(when for when, state in seen("state") if when > at and state == 2)
-        assert stopped - at < 0.25 + delay + 0.15, "the last stage before the wheels looks each 10 ms; this machine may be busy"
+        within(record_property, "wheels held", stopped - at, 0.25)  # what is under way is lost, too
         time.sleep(cut)
         wire.cut = False
         time.sleep(4.0)
         still = [abs(speed) for when, speed in seen("speed") if when > stopped + 1.0]
         assert max(still) < 0.02, "the stick is held since before the cut"
         assert seen("round_trip")[-1][0] > stopped + cut, "the connection is back"
+    assert (session.folder / "said").read_text().count("connection lost\n") == 2, "of the two cuts that are long enough to be noticed"
 
 
 def test_a_robot_that_is_not_there_ends_in_a_sentence():
