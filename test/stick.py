@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
-"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `pause`, `intrude`, `forge`, `twin`, `clock`,
-`garbage`, or `lose`.
+"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `unguided`, `pause`, `intrude`, `forge`, `twin`,
+`clock`, `garbage`, or `lose`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
-       stage held the wheels at zero, the time until the robot stood still, the fastest speed in the 5 s after that, and the kinds of what is said.
-halt   likewise, then halts feedback_node for 3 s; prints the time in s until the wheels were held, and the kinds of what it says until it tells
-       what became of them.
+       stage held the wheels at zero, the time until the robot stood still, the fastest speed in the 5 s after that, the time until commands came
+       again, and the kinds of what is said.
+halt   likewise, then halts feedback_node for 3 s; prints when, in s of the monotonic clock, the time in s until the wheels were held, the fastest
+       speed in the 3 s after it lives again, and the kinds of what it says until it tells what became of the wheels.
+unguided  once a path leads, pushes to 0.3 m/s, kills nav_node and goes on pushing; prints the slowest speed until guidance came again, and the
+       times in s until that is said to be lost and until it came.
 pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the time in s until that is said, and the fastest speed from 0.5 s
        to 3 s after it lives again.
 intrude  a neutral stick while this process itself commands full speed to /navvi/command, at 1 kHz; prints the fastest speed within 3 s, the
-       fastest with the stick pushed while it goes on, and the node that drive_state names.
+       fastest with the stick pushed while it goes on, the simulation's pace meanwhile as a share of that before, and the node that drive_state
+       names.
 forge  this process commands a turn to /navvi/command under the name of feedback_node while the stick is pushed; prints the fastest motion, in m/s or
        rad/s, from 0.6 s after its first command for 3 s, the node that drive_state names, and the fastest speed once it is over and the stick
        was neutral.
@@ -37,7 +41,7 @@ import rospy
 from geometry_msgs.msg import Twist, TwistStamped, Vector3
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
-from navvi_msgs.msg import Cue, DriveState, TrialState
+from navvi_msgs.msg import Cue, DriveState, Guidance, TrialState
 from sensor_msgs.msg import Joy
 
 from sessions import eventually
@@ -122,13 +126,21 @@ class Stick:
         return told[0] - halted, self.fastest(1.0, 2.5)
 
     def intrude(self):
-        self.hold(0.0, lambda: False, 1.0)
+        times = [(self.stamp.to_sec(), time.monotonic())]
+
+        def pace():
+            times.append((self.stamp.to_sec(), time.monotonic()))
+            (sim, wall), (sim_now, wall_now) = times[-2:]
+            return (sim_now - sim) / (wall_now - wall)
+        self.hold(0.0, lambda: False, 3.0)
+        usual = pace()
         commands = rospy.Publisher("/navvi/command", TwistStamped, queue_size=1000)
         flood = rospy.Timer(rospy.Duration(0.001), lambda _: commands.publish(self.command(linear=Vector3(x=1.0))))
         alone = self.fastest(0.0, 3.0)
         driven = self.fastest(1.0, 3.0)
         flood.shutdown()
-        return alone, driven, self.intruder
+        self.hold(1.0, lambda: False, 0.2)  # what came is read
+        return alone, driven, pace() / usual, self.intruder
 
     def forge(self):
         commands = rospy.Publisher("/navvi/command", TwistStamped, queue_size=1, headers={"callerid": "/feedback_node"})
@@ -199,8 +211,9 @@ class Stick:
         self.hold(1.0, lambda: False, 3.0 - held)
         said = self.said()
         os.kill(pid, signal.SIGCONT)
-        self.hold(1.0, lambda: "robot_stopped" in said or "release_stick" in said, 20.0)
-        return held, *said
+        fastest = self.fastest(1.0, 3.0)
+        self.hold(1.0, lambda: "robot_stopped" in said or "release_stick" in said, 17.0)
+        return halted, held, fastest, *said
 
     def said(self):
         """Kinds, of what is to be spoken from now on."""
@@ -208,15 +221,41 @@ class Stick:
         rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.modality == Cue.SPEECH and cue.stage == Cue.QUEUED and kinds.append(cue.kind))
         return kinds
 
+    @staticmethod
+    def times(topic, kind, wanted=lambda _: True):
+        """When each wanted message came from now on, in s of the monotonic clock."""
+        came = []
+        rospy.Subscriber(topic, kind, lambda msg: wanted(msg) and came.append(time.monotonic()))
+        return came
+
+    def unguided(self):
+        pid, said = self.pid("/nav_node"), self.times("/navvi/cues", Cue, lambda cue: cue.kind == "guidance_lost")
+        guided, leads = self.times("/navvi/guidance", Guidance), self.times("/navvi/guidance", Guidance, lambda msg: msg.state == Guidance.FOLLOWING)
+        self.hold(0.0, lambda: leads, 60.0)
+        self.push(0.3)
+        killed, speeds = time.monotonic(), []
+        os.kill(pid, signal.SIGKILL)
+        self.hold(1.0, lambda: speeds.append(self.speed) or since(killed + BEFORE, guided) < NEVER, 10.0)
+        return min(speeds), since(killed, said), since(killed + BEFORE, guided) + BEFORE
+
     def kill(self):
-        pid, said = self.pid("/feedback_node"), self.said()
+        pid, said, commands = self.pid("/feedback_node"), self.said(), self.times("/navvi/command", TwistStamped)
         self.stopped = None
         killed = time.monotonic()
         os.kill(pid, signal.SIGKILL)
         self.hold(1.0, lambda: self.stopped is not None and abs(self.speed) < 1e-3, 5.0)
         still = time.monotonic()
         said.clear()
-        return self.stopped - killed, still - killed, self.fastest(1.0, 5.0), *said
+        return self.stopped - killed, still - killed, self.fastest(1.0, 5.0), since(killed + BEFORE, commands) + BEFORE, *said
+
+
+BEFORE = 0.3  # s, in which messages of a program that was killed may still come
+NEVER = 99.0  # s
+
+
+def since(begin, times):
+    """s until the first of the times after it."""
+    return next((at - begin for at in times if at > begin), NEVER)
 
 
 NODES = ("/sim_node", "/nav_node", "/feedback_node", "/trial_node")
