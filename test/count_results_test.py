@@ -91,8 +91,8 @@ def test_what_fails_where_others_hold_the_processors_is_left_out_unless_it_fails
 
 
 @pytest.mark.parametrize("seconds, beside, why", [
-    (1.0, 0.0, None), (1.1, 0.9, r"lost, beside 0\.9 a processor(?!:)"), (1.9, 1.1, None), (1.9, 9.0, None), (2.1, 3.0, r"lost, beside 3\.0 a processor(?!:)"),
-    (2.1, 9.0, "lost, beside 9.0 a processor: too busy to judge")])
+    (1.0, 0.0, None), (1.1, 0.9, r"lost, beside 0\.9 a processor(?!:)"), (1.9, 1.1, None), (1.9, 9.0, None),
+    (2.1, 3.0, r"lost, beside 3\.0 a processor(?!:)"), (2.1, 9.0, "lost, beside 9.0 a processor: too busy to judge")])
 def test_a_bound_counts_twice_beside_a_load_and_never_more(seconds, beside, why, monkeypatch):
     monkeypatch.setattr(sessions, "crowd", lambda: beside)
     with pytest.raises(AssertionError, match=why) if why else contextlib.nullcontext():

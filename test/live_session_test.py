@@ -53,9 +53,9 @@ class Watched(Session):
         return {name for name, _ in rosgraph.Master("/observer", self.uri).getTopicTypes()}
 
     def listening(self):
-        """The sockets of this session's programs alone: other tests run beside it."""
-        ours = {f"pid={number}," for number in self.of_it()}
-        return [line for line in subprocess.check_output(["ss", "-ltnpH"], text=True).splitlines() if any(pid in line for pid in ours)]
+        """(command line, socket) of this session's programs alone: other tests run beside it."""
+        sockets = subprocess.check_output(["ss", "-ltnpH"], text=True).splitlines()
+        return [(command, line) for number, command in self.of_it().items() for line in sockets if f"pid={number}," in line]
 
     def __exit__(self, *given):
         super().__exit__(*given)
@@ -98,10 +98,10 @@ def test_topics_have_the_names_of_the_picture(session):
 
 
 def test_M3_nothing_listens_beyond_the_loopback_interface(session):
-    ours = [line for line in session.sockets if re.search(r'"(sim_node|nav_node|feedback_node|trial_node|rviz)"', line)]
-    assert ours
-    for line in ours:
-        assert line.split()[3].startswith(("127.0.0.1:", "[::1]:")), line
+    for name in "rosmaster", "roslaunch", "rosout", "sim_node", "nav_node", "feedback_node", "trial_node", "rviz":
+        assert any(name in command for command, _ in session.sockets), name
+    for command, line in session.sockets:
+        assert line.split()[3].startswith(("127.0.0.1:", "[::1]:")), (command, line)
 
 
 SOCKETS = """
