@@ -8,13 +8,6 @@
 namespace navvi_config {
 namespace {
 
-/// The shortest text that is read back as the same number.
-std::string exact(double number) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), number);
-  return {text.data(), end.ptr};
-}
-
 class YamlWriter : public Visitor {
  public:
   YamlWriter() { out_ << YAML::BeginMap; }
@@ -52,6 +45,12 @@ class YamlWriter : public Visitor {
 };
 
 }  // namespace
+
+std::string exact(double number) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number);
+  return {text.data(), end.ptr};
+}
 
 std::string write_fields(const std::function<void(Visitor&)>& describe) {
   YamlWriter writer;

@@ -7,10 +7,7 @@
 namespace navvi_safety {
 namespace {
 
-using navvi_types::NearThing;
-using navvi_types::Pose2;
-using navvi_types::ThingClass;
-using navvi_types::Velocity;
+using namespace navvi_types;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kBrakes = 2.0;    // m/s^2, of the 2.5 that the robot has

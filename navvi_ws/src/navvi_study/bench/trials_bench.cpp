@@ -67,8 +67,7 @@ struct BenchConfig {
   BenchConfig() { trial.limit = 300.0; }
 
   void describe(navvi_config::Visitor& visit) {
-    using navvi_config::Any;
-    using navvi_config::Range;
+    using namespace navvi_config;
     visit(world, "world", Any{}, "", "names or files, with commas between");
     visit(seeds, "seeds", Any{}, "", "of worlds, starts and goals, such as 7 or 1-10");
     visit(trial.limit, "limit", Range{1.0, 1e9}, "s", "of a trial");

@@ -7,6 +7,9 @@
 
 namespace navvi_config {
 
+/// The shortest text that is read back as the same number.
+[[nodiscard]] std::string exact(double number);
+
 [[nodiscard]] std::string write_fields(const std::function<void(Visitor&)>& describe);
 
 /// Every field of `config` as YAML that read() takes back bit for bit.

@@ -2,9 +2,7 @@
 
 namespace navvi_feedback::cues {
 
-using navvi_config::Any;
-using navvi_config::OneOf;
-using navvi_config::Range;
+using namespace navvi_config;
 
 void WordingConfig::describe(navvi_config::Visitor& visit) {
   visit(directions, "directions", OneOf{{"clock", "left_right", "degrees"}}, "",

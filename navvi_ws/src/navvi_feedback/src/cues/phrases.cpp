@@ -14,9 +14,7 @@ namespace navvi_feedback::cues {
 namespace {
 
 using navvi_config::ConfigError;
-using navvi_types::kMaxName;
-using navvi_types::kMaxNameWord;
-using navvi_types::names;
+using namespace navvi_types;
 
 constexpr int kMostPlaces = 999;          // of one name that are told by number
 
@@ -163,7 +161,7 @@ std::vector<std::string> possible(const std::string& placeholder,
   } else {
     add(placeholder + "_");
   }
-  if (placeholder == "person") texts = {std::string(navvi_types::kMaxWord, 'a')};
+  if (placeholder == "person") texts = {std::string(kMaxWord, 'a')};
   if (placeholder == "value") texts.push_back("999 " + words.at("percent"));
   if (placeholder == "place")
     for (std::string& text : texts) text += " 999";

@@ -26,9 +26,7 @@ double slewed(double value, double wanted, double limit) {
 }  // namespace
 
 void HapticsConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Any;
-  using navvi_config::OneOf;
-  using navvi_config::Range;
+  using namespace navvi_config;
   visit(enabled, "enabled", Any{}, "", "false: the motors stay off");
   visit(near, "near", Any{}, "", "false: only patterns are felt, such as that of a hit");
   visit(strength, "strength", Range{0.1, 1.0}, "", "share of their force that the motors have");

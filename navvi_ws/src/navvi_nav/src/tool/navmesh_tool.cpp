@@ -20,11 +20,7 @@ namespace {
 
 using namespace navvi_nav;
 using navvi_config::ConfigError;
-using navvi_files::json_list;
-using navvi_files::json_number;
-using navvi_files::json_object;
-using navvi_files::json_text;
-using navvi_files::JsonFields;
+using namespace navvi_files;
 
 /// The stages of a query, in their order.
 enum class Stage { map, bake, mesh, search, smooth };

@@ -4,11 +4,10 @@
 #include <array>
 #include <cctype>
 #include <navvi_config/reader.hpp>
+#include <navvi_types/spoken.hpp>
 
 namespace navvi_people::people {
 namespace {
-
-constexpr double kFoot = 0.3048;  // m
 
 std::string first_of(const std::string& text) {
   return text.substr(0, std::min(text.find_first_of(" ,"), text.size()));
@@ -42,7 +41,7 @@ void fill(Instruction& told, const std::string& placeholder, const std::string& 
   if (placeholder == "direction" || placeholder == "way") told.hour = std::stoi(end);
   if (placeholder == "side" || placeholder == "where") told.side = sides.at(end);
   if (placeholder == "distance")
-    told.distance = std::stod(std::string(number)) * (key.front() == 'f' ? kFoot : 1.0);
+    told.distance = std::stod(std::string(number)) * (key.front() == 'f' ? navvi_types::kFoot : 1.0);
 }
 
 /// What its kind makes of it.

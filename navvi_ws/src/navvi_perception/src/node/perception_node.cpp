@@ -46,8 +46,7 @@ struct NodeConfig {
   int cloud_points = 20000;  ///< of a cloud that are used at most, evenly spread
 
   void describe(navvi_config::Visitor& visit) {
-    using navvi_config::Any;
-    using navvi_config::Range;
+    using namespace navvi_config;
     core.describe(visit);
     visit(map_frame, "map_frame", Any{}, "", "frame of the map and of all that is published");
     visit(base_frame, "base_frame", Any{}, "", "frame of the robot");

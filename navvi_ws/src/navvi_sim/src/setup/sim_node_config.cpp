@@ -1,8 +1,6 @@
 #include "navvi_sim/setup/sim_node_config.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -28,14 +26,10 @@ std::vector<double> numbers(const std::string& list, std::size_t count, const st
                                   " with finite numbers");
 }
 
-/// The shortest texts that are read back as the same numbers.
 std::string exact(const std::vector<double>& values) {
   std::string list;
-  for (const double value : values) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
-    list += (list.empty() ? "" : ",") + std::string(text.data(), end.ptr);
-  }
+  for (const double value : values)
+    list += (list.empty() ? "" : ",") + navvi_config::exact(value);
   return list;
 }
 
@@ -55,8 +49,7 @@ occupancy::OccupancyConfig octomap_for_robot(const SimNodeConfig& config) {
 }  // namespace
 
 void SimNodeConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Any;
-  using navvi_config::Range;
+  using namespace navvi_config;
   visit(world, "world", Any{}, "",
         "training, easy, warehouse, busy, narrow, maze, or the path of a .yaml, .sdf or .world "
         "file");

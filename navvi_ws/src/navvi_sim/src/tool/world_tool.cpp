@@ -23,11 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using navvi_files::json_list;
-using navvi_files::json_number;
-using navvi_files::json_object;
-using navvi_files::json_text;
-using navvi_files::JsonFields;
+using namespace navvi_files;
 
 /// The parameters that the command line may set.
 struct ToolConfig {

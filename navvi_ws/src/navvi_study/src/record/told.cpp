@@ -10,9 +10,7 @@
 namespace navvi_study::record {
 namespace {
 
-using navvi_types::Content;
-using navvi_types::CueKind;
-using navvi_types::radians;
+using namespace navvi_types;
 
 constexpr double kAnswered = 1.0;   // s, within which a question is answered
 constexpr double kSame = 10.0;      // s; the same sentence again within it is a repeat

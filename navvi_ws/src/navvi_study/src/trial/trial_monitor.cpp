@@ -10,9 +10,7 @@
 namespace navvi_study::trial {
 namespace {
 
-using navvi_types::CueStage;
-using navvi_types::Modality;
-using navvi_types::ThingClass;
+using namespace navvi_types;
 
 constexpr std::size_t kReports = 20;  // of latencies; some seconds
 constexpr double kSameGoal = 0.05;    // m

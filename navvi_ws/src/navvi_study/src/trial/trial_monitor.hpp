@@ -18,19 +18,7 @@
 #include "trial/trial_flow.hpp"
 
 namespace navvi_study {
-using navvi_types::Contact;
-using navvi_types::CueEvent;
-using navvi_types::CueKind;
-using navvi_types::DriveState;
-using navvi_types::LinkState;
-using navvi_types::Guidance;
-using navvi_types::NearThing;
-using navvi_types::Odometry;
-using navvi_types::Proximity;
-using navvi_types::Scenario;
-using navvi_types::StateHash;
-using navvi_types::TrialRequest;
-using navvi_types::TrialState;
+using namespace navvi_types;
 }  // namespace navvi_study
 
 namespace navvi_study::trial {

@@ -40,9 +40,7 @@ void StudyConfig::describe(navvi_config::Visitor& visit) {
 }
 
 void TrialNodeConfig::describe(navvi_config::Visitor& visit) {
-  using navvi_config::Any;
-  using navvi_config::OneOf;
-  using navvi_config::Range;
+  using namespace navvi_config;
   visit(out, "out", Any{}, "", "folder that gets a folder for each trial");
   visit(limit, "limit", Range{0.0, 86400.0}, "s",
         "a trial ends after this much ROS time; 0 for never");

@@ -14,13 +14,14 @@ struct SpokenLength {
   const char* unit;    ///< meter, meters, foot or feet: a key of `words` in config/phrases/
 };
 
+inline constexpr double kFoot = 0.3048;  ///< m
+
 /// Metres: whole from 2 m on, halves below, never less than half a metre. Feet: whole below 20,
 /// fives from there on.
 /// \param metres  >= 0, finite; above 9999 of a unit it is no longer exact, so that the words are
 ///   bounded
 /// \param units  "feet", else metres
 [[nodiscard]] inline SpokenLength spoken_length(double metres, const std::string& units) {
-  constexpr double kFoot = 0.3048;  // m
   constexpr double kFar = 9999.0;
   const bool feet = units == "feet";
   const double length = feet ? metres / kFoot : metres;
