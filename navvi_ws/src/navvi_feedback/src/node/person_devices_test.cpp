@@ -65,11 +65,12 @@ TEST(PersonDevices, F4_words_that_no_voice_says_are_not_recorded_as_heard) {
     return !stages.empty() && stages.back() != CueStage::queued &&
            stages.back() != CueStage::started;
   };
+  const pid_t voice = devices::voices().at(0);
   rlimit files{};
   ::getrlimit(RLIMIT_NOFILE, &files);
   const rlimit none{3, files.rlim_max};
   ::setrlimit(RLIMIT_NOFILE, &none);  // no process can be started
-  ::kill(devices::voices().at(0), SIGKILL);
+  ::kill(voice, SIGKILL);
   for (const auto about : {About::machine_slow, About::intruder}) {
     stages.clear();
     guide.announce({CueKind::notice, about});
