@@ -26,6 +26,21 @@ def test_a_participant_is_led_through_the_plan(work):
     assert "sub-01: 2 of 2 trials; has done everything." in overview.status(work.study, work.study.progress())
 
 
+def test_next_and_run_end_with_the_codes_of_their_help(work, monkeypatch):
+    begun, paused, reports = work("none"), [], []
+    begun.runner.pause = lambda: paused.append(True)
+    monkeypatch.setattr(actions, "_live_session", lambda study, typed: begun)
+    monkeypatch.setattr(actions, "_write_report", lambda *_, **__: reports.append(True))
+
+    def next_code(session=False):
+        return actions.next_(words(work.study, participant="sub-01", typed=False, session=session))
+    assert [next_code(), next_code()] == [1, 0] and not paused
+    assert next_code(session=True) == 0 and len(paused) == 3 and next_code() == 3, "between its four steps that were left"
+    begun.runner.results = ["none"]
+    assert actions.run(words(work.study, only=None)) == 1 and not reports
+    assert actions.run(words(work.study, only=None)) == 0 and reports and work.study.progress().over
+
+
 def test_nothing_begins_before_the_plan_is_frozen_or_once_it_has_changed(tmp_path):
     kept = study.Study(small(tmp_path))
     with pytest.raises(StudyError, match="not frozen"):
@@ -249,7 +264,7 @@ def test_the_page_on_studies_says_for_which_trials_each_measure_is_defined():
 
 def test_where_no_trial_began_the_same_world_comes_again(work):
     begun = work("none")
-    assert begun.next("sub-01") is None
+    assert begun.next("sub-01") is None and work.study.journal.rows()[-1]["collisions"] is None
     assert rest(begun)[0] == "s1-c1-trial-1"
     assert begun.runner.driven[:2] == [("easy", 1), ("easy", 1)]
 
