@@ -20,10 +20,11 @@ from navvi_study.errors import StudyError
 from sessions import ROOT, eventually
 
 
-def test_a_participant_is_led_through_the_plan(work):
+def test_a_participant_is_led_through_the_plan(work, capsys):
     assert rest(work()) == ["s1-c1-trial-1", "s1-c1-tlx", "s1-c2-trial-1", "s1-c2-tlx", "s1-end"]
     assert work.study.progress().complete(work.study.progress().person("sub-01"))
-    assert "sub-01: 2 of 2 trials; has done everything." in overview.status(work.study, work.study.progress())
+    actions.status(words(work.study))
+    assert "sub-01: 2 of 2 trials; has done everything.\n" in capsys.readouterr().out
 
 
 def test_next_and_run_end_with_the_codes_of_their_help(work, monkeypatch):
@@ -363,6 +364,7 @@ def test_exclusions_are_rows_and_nothing_is_deleted(work, capsys):
     assert rest(begun) == ["s1-c1-trial-1"] and begun.runner.driven == [("easy", 11)]
     row = work.study.journal.rows()[-3]
     assert row["type"] == "exclude" and row["reason"] == "the phone rang" and row["by"] == getpass.getuser()
+    assert [row["excluded_by"] for row in table.trials(work.study, work.study.progress())] == [getpass.getuser(), "n/a", "n/a"]
 
 
 @pytest.mark.parametrize("results, before, no_replacement, comes", [
@@ -443,8 +445,9 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
     folder = export.write(kept, kept.progress(), lambda trial: [])
     assert (folder / "participants.tsv").read_text().splitlines() == ["participant_id\tgroup\t" + "\t".join(columns), "sub-02\tall" + "\tn/a" * 5], "sub-01 said no to share"
     monkeypatch.setattr(export, "way_of", lambda trial: [])
+    monkeypatch.setattr(export, "agreed", lambda *_: {"sub-01": False, "sub-02": True, "sub-03": True})
     actions.export(words(kept, bids=True))
-    assert "navvi: left out: 1 of 2 participants, without a yes to share in the consent." in capsys.readouterr().out
+    assert "navvi: left out: 1 of 3 participants, without a yes to share in the consent." in capsys.readouterr().out
     assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
 
 
@@ -496,7 +499,11 @@ def test_no_table_and_no_export_holds_who_has_withdrawn(work, monkeypatch, capsy
         actions.withdraw(words(work.study, participant="sub-02", data=delete))
         assert holders & {path.name for path in work.study.folder.iterdir()} == (holders if delete == "keep" else set())
         assert holding("sub-02") >= left and (left or not holding("sub-02")), delete
-    assert "\"study report\" and \"study export\" write those anew" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "sub-02 has withdrawn; what was recorded is kept.\n" in said and "\"study report\" and \"study export\" write those anew" in said
+    assert "has lost rows" not in said
+    with pytest.raises(StudyError, match="sub-02 has withdrawn already"):
+        actions.withdraw(words(work.study, participant="sub-02", data="keep"))
     actions.table(words(work.study))
     assert holding("sub-01") and not holding("sub-02")
 

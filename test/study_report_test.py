@@ -232,9 +232,12 @@ def test_a_blind_plan_names_no_condition_before_its_analysis_is_frozen(tmp_path,
         with pytest.raises(StudyError, match="unblind"):
             action(args)
     assert not (kept.folder / "report.html").exists() and not list(kept.folder.glob("*.csv"))
-    assert not {"full", "plain"} & set(re.findall(r"\w+", Page((kept.folder / "report-blind.html").read_text()).text))
+    blinded = (kept.folder / "report-blind.html").read_text()
+    assert not {"full", "plain"} & set(re.findall(r"\w+", Page(blinded).text)) and "study rehearse" not in blinded
     args.reason = "not needed, as all are through"
+    (kept.folder / "report-blind.html").unlink()
     actions.unblind(args)
+    assert (kept.folder / "report-blind.html").read_text() == blinded and "study rehearse" not in (kept.folder / "report.html").read_text()
     text = Page((kept.folder / "report.html").read_text()).text
     assert hashlib.sha256((kept.folder / "report-blind.html").read_bytes()).hexdigest() in text and "than in full" in text and "; trials after that: 0." in text and "not needed" not in text
     assert (kept.folder / "trials.csv").exists() and not actions.table(args)
