@@ -527,9 +527,10 @@ def test_who_is_excluded_does_nothing_more_and_counts_in_nothing(work):
     actions.exclude(exclusion(work.study, "sub-01", "was ill"))
     assert begun.next("sub-01") is None and said[-1] == "navvi: sub-01: is excluded: was ill."
     assert [row["counts"] for row in table.trials(work.study, work.study.progress())] == ["no"]
-    for what, says in ("sub-01", "excluded already: was ill"), ("sub-01/trial-9", "names 0 trials"):
+    for what, reason, says in (("sub-01", "again", "excluded already: was ill"), ("sub-01/trial-9", "again", "names 0 trials"),
+                               ("sub-02", "", "--reason is \"\"; allowed")):
         with pytest.raises(StudyError, match=says):
-            actions.exclude(exclusion(work.study, what, "again"))
+            actions.exclude(exclusion(work.study, what, reason))
 
 
 def test_two_experimenters_do_not_drive_one_participant(work):

@@ -236,7 +236,13 @@ def test_a_blind_plan_names_no_condition_before_its_analysis_is_frozen(tmp_path,
     assert not {"full", "plain"} & set(re.findall(r"\w+", Page(blinded).text)) and "study rehearse" not in blinded
     args.reason = "not needed, as all are through"
     (kept.folder / "report-blind.html").unlink()
+    actions.report(words(kept, only="time", blind=False))
     actions.unblind(args)
+    actions.report(words(kept, only="time", blind=False))
+    figures_of = {path.name: path.read_text() for path in kept.folder.glob("*.svg")}
+    assert sorted(figures_of) == ["time-blind.svg", "time.svg"] and "full" in figures_of["time.svg"] and "full" not in figures_of["time-blind.svg"]
+    with pytest.raises(StudyError, match="--only is \"weight\"; allowed is a measure with values"):
+        actions.report(words(kept, only="weight", blind=False))
     assert (kept.folder / "report-blind.html").read_text() == blinded and "study rehearse" not in (kept.folder / "report.html").read_text()
     text = Page((kept.folder / "report.html").read_text()).text
     assert hashlib.sha256((kept.folder / "report-blind.html").read_bytes()).hexdigest() in text and "than in full" in text and "; trials after that: 0." in text and "not needed" not in text
