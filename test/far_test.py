@@ -156,6 +156,9 @@ def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it
         lines[:] = [json.loads(line) for line in (session.folder / "seen").read_text().splitlines() if line.endswith("}")]
         return [(line["at"], line[name]) for line in lines if name in line]
 
+    def lost():
+        return (session.folder / "said").read_text().count("connection lost\n")
+
     assert observer.poll() is None
     assert eventually(lambda: seen("speed"), 60)
     for delay, cut, forward in ((0.05, 0.6, 1.0), (0.2, 3.0, -1.0), (0.05, 8.0, 1.0)):
@@ -164,17 +167,18 @@ def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it
         assert eventually(lambda: seen("state")[-1][1] == 1, 60)  # running
         push(forward)
         assert eventually(lambda: abs(seen("speed")[-1][1]) > 0.1, 20)
+        before = lost()
         wire.cut, at = True, time.monotonic()
         assert eventually(lambda: seen("state")[-1][1] == 2, 2)
         stopped = next(when for when, state in seen("state") if when > at and state == 2)
         within(record_property, "wheels held", stopped - at, 0.25)  # what is under way is lost, too
         time.sleep(cut)
+        assert lost() > before or cut < 1.0
         wire.cut = False
         time.sleep(4.0)
         still = [abs(speed) for when, speed in seen("speed") if when > stopped + 1.0]
         assert max(still) < 0.02, "the stick is held since before the cut"
         assert seen("round_trip")[-1][0] > stopped + cut, "the connection is back"
-    assert (session.folder / "said").read_text().count("connection lost\n") == 2, "of the two cuts that are long enough to be noticed"
 
 
 def test_a_robot_that_is_not_there_ends_in_a_sentence():

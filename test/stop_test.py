@@ -82,8 +82,9 @@ def test_C2_a_guide_that_was_halted_moves_nothing_and_calls_nobody_else_lost(ses
     assert float(speed) >= 0.8
     within(record_property, "wheels held", float(held), 0.25)
     assert float(afterwards) < 1e-3, "the stick was never neutral"
-    stops = [stop for folder in tmp_path.glob("trial-*") for stop in Record(folder).of("SAFE_STOP") if stop.mono_ns * 1e-9 > float(halted)]
-    assert [stop.fields["reason"] for stop in stops] == ["command_lost"], stops
+    stops = [stop for folder in tmp_path.glob("trial-*") for stop in Record(folder).of("SAFE_STOP")]
+    while_pushed = [stop.fields["reason"] for stop in stops if 0.0 < stop.mono_ns * 1e-9 - float(halted) < 6.0]
+    assert while_pushed == ["command_lost"], stops
     assert {"robot_stopped", "release_stick"} & set(said), said
     assert not {"simulator_lost", "guidance_lost", "proximity_lost"} & set(said), said
 
