@@ -102,7 +102,7 @@ def test_P1_a_file_that_cannot_be_used_ends_in_a_sentence(kind, fault, tmp_path,
         pytest.skip("a new name begins a new file; what is in a world is read when it is driven in")
     begin = time.monotonic()
     done = sourced(*words, env=dict(os.environ, **more), errors="replace", timeout=SECONDS, preexec_fn=bounded)
-    within(record_property, "refused", time.monotonic() - begin, 5.0)
+    within(record_property, "refused", time.monotonic() - begin, 2.0)
     said = done.stdout + done.stderr
     assert done.returncode == 2, said[-2000:]
     assert "Traceback" not in said and "bad_alloc" not in said and SECRET not in said

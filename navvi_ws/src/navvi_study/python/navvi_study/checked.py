@@ -17,7 +17,7 @@ LARGEST = 1 << 20  # bytes of a file, as in navvi_config's readers
 LINE_ENDS = "\x85\u2028\u2029"
 HUGE = 10 ** 40
 DEEPEST = 32  # lists and mappings in one another
-MOST = 50_000  # values of a file, those behind an alias counted each time
+MOST = 20_000  # values of a file, those behind an alias counted each time
 
 
 class _Loader(yaml.SafeLoader):
