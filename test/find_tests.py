@@ -20,7 +20,8 @@ def programs(word, root=ROOT):
             yield f"{package}/{'/'.join(rooms)}".removesuffix("_test.cpp")
     for file in sorted((root / "navvi_ws/src").glob("*/test/*_node_test.cpp")):
         if any(re.search(word, f"{suite}.{name}") for suite, name in CASE.findall(file.read_text())):
-            yield f"_ctest_{file.parent.parent.name}_rostest_test_{file.name.removesuffix('_test.cpp')}.test"
+            for launch in sorted(file.parent.glob(f"{file.name.removesuffix('_test.cpp')}*.test")):
+                yield f"_ctest_{file.parent.parent.name}_rostest_test_{launch.name}"
     for file in sorted((root / "test").glob("*_test.py")):
         if any(re.search(word, "".join(names)) for names in SYSTEM_CASE.findall(file.read_text())):
             yield file.name.removesuffix("_test.py")

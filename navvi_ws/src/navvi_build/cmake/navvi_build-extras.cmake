@@ -142,18 +142,24 @@ function(navvi_tests)
   endforeach()
 endfunction()
 
-# The test NAME of a node: test/NAME.cpp, started with a ROS master by test/LAUNCH.
-function(navvi_node_test name launch)
+# The test NAME of a node: test/NAME.cpp, started with a ROS master by each of test/LAUNCHES.
+function(navvi_node_test name launches)
   if(NOT CATKIN_ENABLE_TESTING)
     return()
   endif()
   find_package(rostest REQUIRED)
-  add_rostest_gtest(${name} test/${launch} test/${name}.cpp)
+  list(POP_FRONT launches first)
+  add_rostest_gtest(${name} test/${first} test/${name}.cpp)
   target_link_libraries(${name} ${ARGN})
   target_include_directories(${name} PRIVATE $<TARGET_PROPERTY:navvi_test_main,SOURCE_DIR>/test)
   navvi_own_code(${name})
   navvi_precompiled(${name} test)
-  set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_${launch} PROPERTIES LABELS whole TIMEOUT 600)
+  foreach(launch ${first} ${launches})
+    if(launch IN_LIST launches)
+      add_rostest(test/${launch} DEPENDENCIES ${name})
+    endif()
+    set_tests_properties(_ctest_${PROJECT_NAME}_rostest_test_${launch} PROPERTIES LABELS whole TIMEOUT 600)
+  endforeach()
 endfunction()
 
 # Adds a target's objects to those whose types the target odr_check compares: two types of one name
