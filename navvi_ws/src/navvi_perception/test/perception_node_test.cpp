@@ -146,6 +146,13 @@ class PerceptionNodeTest : public testing::Test {
     rear_scans_.publish(rear);
   }
 
+  /// A second lidar, which the node has heard by then.
+  void add_rear() {
+    has_rear = true;
+    const ros::WallTime begin = ros::WallTime::now();
+    ASSERT_TRUE(until([&] { return near_ && (ros::WallTime::now() - begin).toSec() > 2.0; }));
+  }
+
   /// Sets the clock back, s, and waits until the node has seen something since.
   void set_back(double by) {
     const ros::Time before = ros::Time::now();
@@ -375,7 +382,7 @@ TEST_F(PerceptionNodeTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_n
 }
 
 TEST_F(PerceptionNodeTest, H2_a_mover_whose_lidar_fell_silent_is_near_until_sensing_is_lost) {
-  has_rear = true;
+  add_rear();
   disc_y_ = -2.0;
   const auto holds_mover = [this] {
     return std::any_of(near_->things.begin(), near_->things.end(),
@@ -398,8 +405,7 @@ TEST_F(PerceptionNodeTest, H2_a_mover_whose_lidar_fell_silent_is_near_until_sens
 }
 
 TEST_F(PerceptionNodeTest, H2_says_why_the_messages_of_one_of_its_sensors_are_dropped) {
-  has_rear = true;
-  ASSERT_TRUE(until([this] { return near_.has_value(); }));
+  add_rear();
   spoil_rear_ = [](auto& msg) { msg.angle_increment = kNone; };
   EXPECT_TRUE(until([this] { return sensing_.find("rear/scan: its angles") != std::string::npos; }))
       << sensing_;
@@ -423,9 +429,7 @@ TEST_F(PerceptionNodeTest, H2_loses_sensing_where_one_of_its_sensors_falls_silen
 }
 
 TEST_F(PerceptionNodeTest, T1_a_sensor_that_is_silent_is_missed_when_time_has_jumped_back_too) {
-  has_rear = true;
-  const ros::WallTime sends = ros::WallTime::now();
-  ASSERT_TRUE(until([&] { return near_ && (ros::WallTime::now() - sends).toSec() > 2.0; }));
+  add_rear();
   has_rear = false;
   sensing_.clear();
   ASSERT_TRUE(until([this] { return sensing_.find("rear/scan: no") != std::string::npos; }));
