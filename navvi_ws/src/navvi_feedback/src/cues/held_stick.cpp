@@ -1,5 +1,6 @@
 #include "cues/held_stick.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace navvi_feedback::cues {
@@ -14,6 +15,9 @@ constexpr double kNeutral = 0.02;
 
 /// What a person has to do whose stick moves nothing.
 std::optional<CueKind> remedy_of(const Observation& now) {
+  // What is pressed must be released first.
+  const Content pressed = CueKind::emergency_stop;
+  if (std::count(now.notices.begin(), now.notices.end(), pressed) > 0) return {};
   if (now.stick_disabled) return CueKind::hold_to_drive;
   if (now.stick_held_unarmed) return CueKind::release_stick;
   const bool shut =

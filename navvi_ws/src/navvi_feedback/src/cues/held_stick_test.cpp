@@ -48,6 +48,15 @@ TEST_F(HeldStickTest, asks_while_a_shut_gate_is_driven_against) {
   }
 }
 
+TEST_F(HeldStickTest, C8_asks_for_nothing_that_does_not_help_while_an_emergency_stop_is_pressed) {
+  now_.gate = DriveState::State::stopped;
+  now_.commanded.linear = 0.5;
+  now_.notices = {CueKind::emergency_stop};
+  EXPECT_EQ(pass(5.0), 0);
+  now_.notices.clear();
+  EXPECT_EQ(pass(5.0), 2);
+}
+
 TEST_F(HeldStickTest, passes_over_the_moment_that_a_gate_takes_to_open) {
   now_.gate = DriveState::State::waiting;
   now_.commanded.linear = 0.5;
