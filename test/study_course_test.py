@@ -386,6 +386,17 @@ def test_an_exclusion_promises_another_world_only_where_one_comes(tmp_path, caps
     assert ("Another world takes its place." in capsys.readouterr().out) == comes == (len(begun.runner.driven) > driven)
 
 
+def test_a_trial_is_excluded_whose_step_the_plan_has_no_more(tmp_path, capsys):
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3, 4]}}"))
+    begun = begin(kept, "reached")
+    begun.runner.ask = lambda *_: None
+    begun.next("sub-01")
+    begun.next("sub-01")
+    study.Study(small(tmp_path)).freeze("test", "no probes")
+    actions.exclude(exclusion(kept, "sub-01/trial-2", "a siren"))
+    assert capsys.readouterr().out.endswith("sub-01/trial-2 does not count: a siren.\n")
+
+
 def test_when_the_reserve_is_used_up_the_trial_is_missing_and_the_rest_goes_on(work):
     assert rest(work("aborted", "aborted", "aborted"))[3:] == ["s1-c1-tlx", "s1-c2-trial-1", "s1-c2-tlx", "s1-end"]
     state = work.study.progress()

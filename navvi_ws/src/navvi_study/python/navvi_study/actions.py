@@ -197,7 +197,8 @@ def exclude(args):
                          rule=False, replace=not args.no_replacement)
     state = study.progress()
     person, step = state.person(person.name), person.step(attempt.step)
-    over = args.no_replacement or state.next(person) is None or step.finished(state, person) or step.given_up(state, person)  # also of practice and probes
+    # Also of practice and probes; a plan that was frozen anew may have no such step.
+    over = args.no_replacement or not step or state.next(person) is None or step.finished(state, person) or step.given_up(state, person)
     print(f"navvi: {person.name}/{attempt.trial} does not count: {reason}." + ("" if over else " Another world takes its place."))
 
 
