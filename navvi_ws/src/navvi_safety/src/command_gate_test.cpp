@@ -253,6 +253,8 @@ TEST_F(Gate, C9_a_command_later_than_usual_drives_slowly_and_one_too_late_not_at
   EXPECT_DOUBLE_EQ(wheels_.linear, 0.4);
   EXPECT_DOUBLE_EQ(wheels_.angular, 0.4);
   EXPECT_EQ(gate_.late(), LinkMeter::Late::slow);
+  delayed(0.1, Velocity{1.0, 5.0}, 0.55);
+  EXPECT_DOUBLE_EQ(wheels_.angular, 0.4 * CommandGateConfig{}.max_angular);
   delayed(0.2, Velocity{1.0, 1.0}, 1.25);
   EXPECT_DOUBLE_EQ(wheels_.linear, 0.4) << "the last that counted is 0.2 s old";
   delayed(0.1, Velocity{1.0, 1.0}, 1.25);
@@ -407,7 +409,13 @@ TEST_F(Gate, a_border_stays_where_it_was_when_zones_are_silent_and_the_robot_tur
   zone.forward = 0.0;
   gate_.limit(zone, now_);
   hold(0.6, Velocity{});
-  hold(kPi / 2.0, Velocity{0.0, 2.0});
+  hold(0.4, Velocity{0.0, 2.0});
+  now_.sim += 10.0;  // of which the wheels turn for 0.25 s, until the command is old
+  wheels_ = gate_.update(now_);
+  hold(0.4, Velocity{});
+  hold(0.1, Velocity{0.5, 0.0});
+  EXPECT_EQ(wheels_.linear, 0.0) << "before it still";
+  hold(kPi / 2.0 - 0.65, Velocity{0.0, 2.0});
   hold(0.1, Velocity{0.5, 0.0});
   EXPECT_EQ(wheels_.linear, CommandGateConfig::kZoneLost) << "away from it";
   hold(0.1, Velocity{-0.5, 0.0});
