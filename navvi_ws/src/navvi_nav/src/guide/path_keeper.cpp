@@ -84,8 +84,8 @@ bool PathKeeper::decide(const Choice& choice) {
 }
 
 /// True to keep the path although `fresh` is at hand: as update(), or nothing is hit within
-/// hold_choice, while `fresh` leads in front of something that moves or the path that is followed
-/// was chosen within hold_choice.
+/// hold_choice, while `fresh` leads in front of something that moves. A path that was chosen within
+/// hold_choice is left only for one that is safer.
 bool PathKeeper::holds(double time, const Candidate& followed, const Candidate& fresh) {
   const Conflict& conflict = followed.conflict;
   if (goes_on_safely(conflict)) return true;
@@ -94,10 +94,12 @@ bool PathKeeper::holds(double time, const Candidate& followed, const Candidate& 
   const bool passes =
       conflict.state == Conflict::State::crossing || waits_safely(conflict) || far_round;
   if (goes_on(time, passes && !(conflict.hits_either_way() && safer(followed, fresh)))) return true;
-  if (!holds_paths() || conflict.time_to_collision <= config_.kHoldChoice) return false;
-  const bool just_chosen = chosen_ && time - *chosen_ < config_.kHoldChoice;
-  return just_chosen ||
-         (fresh.path.size() >= 2 && fresh.conflict.time_to_collision <= config_.kHoldChoice);
+  if (!holds_paths()) return false;
+  const bool in_time = conflict.time_to_collision > config_.kHoldChoice;
+  if (chosen_ && time - *chosen_ < config_.kHoldChoice)
+    return in_time || !safer(followed, fresh);
+  return in_time && fresh.path.size() >= 2 &&
+         fresh.conflict.time_to_collision <= config_.kHoldChoice;
 }
 
 /// Remembers since when a conflict is sat out. \returns true for at most hold_time

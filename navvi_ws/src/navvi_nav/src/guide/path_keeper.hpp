@@ -15,7 +15,7 @@ struct PathKeeperConfig {
   double gain_back = 4.0;
   double hold_time = 8.0;
   /// s, a path chosen because of moving things is kept so long at least, if no collision is
-  /// forecast within as long
+  /// forecast within as long, or none a second later on the one that was found since
   static constexpr double kHoldChoice = 3.0;
   double hold_detour = 6.0;  ///< m, longest detour around a moving thing while the path may be kept
   /// m, nearer than this the robot waits for a thing that crosses or closes the only way
