@@ -18,6 +18,7 @@ from .places import DEVEL
 from .say import aside, fail
 
 PORTS = range(11311, 11411)
+LOOPBACK = "libnavvi_loopback.so"
 GIVEN = os.environ.get("ROS_MASTER_URI")  # by the user; later also by the workspace's own set-up
 
 
@@ -110,8 +111,14 @@ class Network:
     @staticmethod
     def preload():
         """Nodes would also open a port on every interface, which this library prevents: they listen at ROS_IP alone. It also ends
-        rosmaster, rosout and RViz with roslaunch. Libraries that the user preloads stay."""
-        return ":".join(filter(None, [str(DEVEL / "lib" / "libnavvi_loopback.so"), os.environ.get("LD_PRELOAD")]))
+        rosmaster, rosout and RViz with roslaunch. Libraries that the user preloads stay. It is named without its folder, which is in
+        LD_LIBRARY_PATH: the loader splits LD_PRELOAD at blanks. What it does not find it passes over, so a first program is asked."""
+        names = ":".join(filter(None, [LOOPBACK, os.environ.get("LD_PRELOAD")]))
+        loaded = subprocess.run(["cat", "/proc/self/maps"], env=dict(os.environ, LD_PRELOAD=names), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+        if LOOPBACK.encode() not in loaded.stdout:
+            fail(f"{LOOPBACK} cannot be loaded, and without it anybody in the network reaches this session; it is needed in {DEVEL / 'lib'}, "
+                 "and a path without \":\" and \";\".", 2)
+        return names
 
     def second_terminal(self):
         setup = DEVEL / "setup.bash"

@@ -256,6 +256,23 @@ def test_a_port_on_which_anybody_listens_is_not_ours(locks):
     os.close(network.claim(locks))
 
 
+@pytest.mark.parametrize("name, loaded", [("a b", True), ("a:b", False), ("none", False)])
+def test_what_keeps_nodes_to_the_loopback_interface_is_loaded_from_any_folder_or_nothing_starts(name, loaded, tmp_path, monkeypatch):
+    if name != "none":
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "lib").symlink_to(network.DEVEL / "lib")
+    monkeypatch.setattr(network, "DEVEL", tmp_path / name)
+    monkeypatch.setenv("LD_LIBRARY_PATH", f"{tmp_path}/{name}/lib")
+    monkeypatch.delenv("LD_PRELOAD", raising=False)
+    if not loaded:
+        said = refusal(network.Network.preload)
+        assert f"it is needed in {tmp_path}/{name}/lib, and a path without" in said
+        return
+    maps = subprocess.check_output(["/usr/bin/python3", "-c", "print(open('/proc/self/maps').read())"], text=True,
+                                   env=dict(os.environ, LD_PRELOAD=network.Network.preload()))
+    assert "libnavvi_loopback.so" in maps
+
+
 # --- what a session prints
 
 @pytest.mark.parametrize("line, shown", [

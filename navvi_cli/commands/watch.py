@@ -23,7 +23,7 @@ import os
 import sys
 
 from navvi_cli.arguments import Words, completions, trial_in, trials_that_hold
-from navvi_cli.network import address_of, listeners, running_sessions
+from navvi_cli.network import Network, address_of, listeners, running_sessions
 from navvi_cli.places import DEVEL, share
 from navvi_cli.say import fail
 from navvi_cli.workspace import build, enter, is_current
@@ -48,12 +48,14 @@ def run(args):
     words = Words(given, ["pace", "port", "speech"], choices=CHOICES)
     port = None if trial else port_of_session(words.get("port"))
     if not is_current(DEVEL / "lib/python3/dist-packages/navvi_msgs/msg/__init__.py"):
-        build("navvi_msgs_generate_messages_py")
+        build("navvi_msgs_generate_messages_py", "navvi_loopback")
     enter()
     if port:
         address = address_of(port)
         os.environ.update(ROS_MASTER_URI=f"http://{address}:{port}", ROS_IP=address)
         os.environ.pop("ROS_HOSTNAME", None)
+        if not address.startswith("127."):  # where rospy listens there alone by itself
+            os.environ["LD_PRELOAD"] = Network.preload()
     program = str(share("navvi_study") / "python" / "navvi_study" / "watch.py")
     slow = not trial or sys.stdout.isatty() or words.get("speech") == "true"
     os.execv(sys.executable, [sys.executable, program, words.get("pace", "180" if slow else "0"), words.get("speech", "false"), *([str(trial)] if trial else [])])
