@@ -27,6 +27,8 @@ FORMS = {
     "person": (r"[A-Za-z0-9_-]{1,24}", "up to 24 letters, digits, - and _, such as anna"),
     "out": (r"(?!-).*", "paths that do not begin with \"-\", which programs take for an option, such as ./-x"),
 }
+# Parameters that name a file: nodes run in another folder than the command.
+FILES = ("feedback/phrases", "feedback/questions", "feedback/record", "nav/mesh/zones", "perception/prior")
 # The command itself sets these.
 INTERNAL = re.compile(r".*parameters|version|bag")
 
@@ -100,7 +102,7 @@ class Words(dict):
             fail(f"\"{name}\" would have no effect; allowed is {last}:={value}.", 2)
         if name in fixed:
             fail(f"\"{name}\" cannot be given: the session itself sets it; other parameters of {part} are allowed.", 2)
-        self.parameters.append(f"{name}:={value}")
+        self.parameters.append(f"{name}:={os.path.abspath(value) if value and name in FILES else value}")
 
     def check(self, name):
         value = self[name]

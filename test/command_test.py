@@ -180,6 +180,26 @@ def test_words_become_values_and_parameters(launch_file):
     assert words.parameters_of("sim") == ["rate:=2", "a/b:=c:=d"]
 
 
+def test_a_file_is_that_of_the_folder_in_which_the_command_is_given(tmp_path, monkeypatch):
+    """Nodes run in another."""
+    monkeypatch.chdir(tmp_path)
+    given = ["feedback/questions:=a.yaml", "feedback/record:=/b.csv", "feedback/phrases:=", "perception/prior:=c/d.bt", "nav/mesh/zones:=./e.yaml",
+             "trial/record:=none", "feedback/language:=es"]
+    assert arguments.words_for(arguments.LaunchFile("live.launch"), given).parameters == [
+        f"feedback/questions:={tmp_path}/a.yaml", "feedback/record:=/b.csv", "feedback/phrases:=", f"perception/prior:={tmp_path}/c/d.bt",
+        f"nav/mesh/zones:={tmp_path}/e.yaml", "trial/record:=none", "feedback/language:=es"]
+    assert arguments.words_for(arguments.LaunchFile("lesson.launch"), given[:1]).parameters == [f"feedback/questions:={tmp_path}/a.yaml"]
+
+
+def test_each_parameter_that_names_a_file_is_known_as_one():
+    """By the meaning that the sources give it. The session itself sets the others."""
+    texts = [path.read_text() for path in (ROOT / "navvi_ws/src").glob("navvi_*/src/*/*.cpp")
+             if re.search("node_config|nav_mesh|perception_node", path.name)]
+    meant = [one for text in texts for one in re.findall(r'"(\w+)", (?:navvi_config::)?Any\{\}, "",\s+"([^"]*)', text)]
+    named = {name for name, meaning in meant if re.search(r"\bfile\b", meaning)}
+    assert named - {"job", "places", "world", "classes", "person"} == {name.rpartition("/")[2] for name in arguments.FILES}
+
+
 @pytest.mark.parametrize("word, sentence", [
     ("fast", "arguments look like name:=value"), ("gone:=1", "\"gone\" is unknown; known are: seed view"), ("inner:=1", "is unknown"),
     ("version:=1", "is unknown"), ("sim_parameters:={}", "is unknown"), ("seed:=$(env HOME)", "holds \"$(\""), ("seed:=-1", "whole numbers from 0 to 2147483647"),
