@@ -1,7 +1,9 @@
 """The entry script, the launch files, the views and the parameter files, as they ship."""
 import fcntl
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
 
@@ -26,6 +28,17 @@ def test_a_python_without_its_library_ends_in_a_sentence():
         pytest.skip("no mount namespace is allowed here")
     result = subprocess.run([*without, str(ROOT / "navvi"), "help"], capture_output=True, text=True, timeout=60)
     assert (result.returncode, result.stderr) == (1, "navvi: Python lacks its library; \"apt install python3\" installs it.\n"), result
+
+
+def test_nothing_is_compiled_among_the_sources(tmp_path):
+    """The build would count as out of date, and who may not write there could run nothing."""
+    shutil.copy(ROOT / "navvi", tmp_path)
+    for path in ROOT / "navvi_cli", *(ROOT / "navvi_ws/src").glob("*/python"):
+        shutil.copytree(path, tmp_path / path.relative_to(ROOT), ignore=shutil.ignore_patterns("__pycache__"))
+    env = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    done = subprocess.run([tmp_path / "navvi", "show", "/nonexistent"], env=env, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and "holds no summary.csv" in done.stderr, done
+    assert not list(tmp_path.rglob("__pycache__"))
 
 
 def test_shell_scripts_are_clean():

@@ -14,6 +14,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), *map(str, (ROOT / "navvi_ws/src").glob("*/python"))]  # what all tests import, as conftest.py reads this file first
+sys.dont_write_bytecode = True  # as the command
 WORLD = ROOT / "navvi_ws/src/navvi_sim/worlds/small_room.world"
 DARK = {key: value for key, value in os.environ.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}  # without a screen
 
@@ -45,7 +46,6 @@ def within(record_property, what, seconds, bound):
 
 def script(path):
     """A program without an ending, as a module."""
-    sys.dont_write_bytecode = True
     loader = importlib.machinery.SourceFileLoader(path.name, str(path))
     module = importlib.util.module_from_spec(importlib.util.spec_from_loader(path.name, loader))
     loader.exec_module(module)
