@@ -78,11 +78,10 @@ HEAR = "import rospy, navvi_msgs.msg as msg; rospy.init_node('ear', disable_rost
 
 @pytest.fixture
 def small_disk(tmp_path):
-    if os.getuid() != 0:
-        pytest.skip("only root may mount a file system")
     disk = tmp_path / "disk"
     disk.mkdir()
-    subprocess.run(["mount", "-t", "tmpfs", "-o", "size=80m", "none", disk], check=True)
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=80m", "none", disk], capture_output=True).returncode:
+        pytest.skip("no file system may be mounted here")
     yield disk
     subprocess.run(["umount", "-l", disk], check=True)
 
