@@ -31,6 +31,9 @@ FATAL = re.compile(r"FATAL|RLException")
 BEGUN = re.compile(r": Trial (trial-\S+) has begun:")
 # What ends a session before its time, after which roslaunch itself ends with 0: a required program, or one that does not stay alive.
 CRASH = re.compile(r"^process has died|.*so the session ends\.|^RLException")
+# roslaunch would end all at once with a simulator that is required. A person's is not: they first hear that it is lost.
+SIMULATOR_LOST = re.compile(r"^\[sim_node-\d+\] process has ")
+LAST_WORDS = 4  # s, for that
 
 
 def has_display():
@@ -167,7 +170,12 @@ class Launch:
         before[signal.SIGPIPE] = signal.signal(signal.SIGPIPE, signal.SIG_IGN)
         before[signal.SIGALRM] = signal.signal(signal.SIGALRM, self.stop)
         for line in self.process.stdout:
-            self.log.take(line.decode(errors="replace"))
+            line = CONTROLS.sub("", line.decode(errors="replace"))
+            self.log.take(line)
+            if SIMULATOR_LOST.match(line) and not self.log.stopping:
+                write(f"the simulator has ended, and the session ends in {LAST_WORDS} s; the same command starts another.")
+                self.log.crashed = True
+                signal.alarm(LAST_WORDS)
         status = self.process.wait()
         for number, handler in before.items():
             if number == signal.SIGALRM:  # the last one: no other sets the alarm again
@@ -179,6 +187,7 @@ class Launch:
         """Again each second: while roslaunch starts, a signal can be lost; once it stops, it heeds no other."""
         if number == signal.SIGINT and not self.interrupted:
             write("stopped by Ctrl-C; what was recorded is kept.")
-        self.interrupted = self.log.stopping = True
+        self.interrupted = self.interrupted or number != signal.SIGALRM
+        self.log.stopping = True
         self.process.send_signal(signal.SIGINT if number == signal.SIGALRM else number)
         signal.alarm(1)

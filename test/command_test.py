@@ -6,6 +6,7 @@ import re
 import socket
 import subprocess
 import sys
+import time
 import types
 
 import pytest
@@ -369,6 +370,21 @@ def test_what_nodes_log_lies_beside_the_sessions_log(tmp_path, monkeypatch):
     nothing = types.SimpleNamespace(path="a.launch", preload=lambda: "", locks=[])
     assert session.Launch(nothing, {}, tmp_path / "session-1.log", nothing).run()
     assert (tmp_path / "session-1.log").read_text() == f"logs in {tmp_path}/session-1\n"
+
+
+def test_S1_a_persons_session_ends_some_seconds_after_its_simulator_and_says_so(tmp_path, monkeypatch, capfd):
+    """In which the guide says that it is lost; nothing would start it anew."""
+    (tmp_path / "roslaunch").write_text("#!/usr/bin/python3\nimport signal, sys, time\nsignal.signal(signal.SIGINT, lambda *_: sys.exit(0))\n"
+                                        "print('[sim_node-2] process has died [pid 7, exit code -9, cmd x].', flush=True)\ntime.sleep(60)\n")
+    (tmp_path / "roslaunch").chmod(0o755)
+    monkeypatch.setattr(session, "SHELL", tmp_path / "run")
+    monkeypatch.setattr(session, "LAST_WORDS", 1)
+    nothing = types.SimpleNamespace(path="a.launch", preload=lambda: "", locks=[])
+    launch, begin = session.Launch(nothing, {}, tmp_path / "session-1.log", nothing), time.monotonic()
+    assert not launch.run() and not launch.interrupted, "a crash, and no stop by hand"
+    assert 0.9 < time.monotonic() - begin < 30.0
+    assert capfd.readouterr().out == ("navvi: warning: sim_node has ended with exit code -9.\n"
+                                      "navvi: the simulator has ended, and the session ends in 1 s; the same command starts another.\n")
 
 
 @pytest.mark.parametrize("interrupted, code", [(True, 130), (False, 0)])

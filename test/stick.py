@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `unguided`, `pause`, `intrude`, `forge`, `twin`,
-`clock`, `garbage`, or `lose`.
+"""A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `unguided`, `pause`, `crash`, `intrude`, `forge`,
+`twin`, `clock`, `garbage`, or `lose`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
@@ -12,6 +12,7 @@ unguided  once a path leads, pushes to 0.3 m/s, kills nav_node and goes on pushi
        times in s until that is said to be lost and until it came.
 pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the time in s until that is said, and the fastest speed from 0.5 s
        to 3 s after it lives again.
+crash  kills sim_node with SIGKILL in a trial, with the stick pushed; prints the time in s until it is said to be lost.
 intrude  a neutral stick while this process itself commands full speed to /navvi/command, at 1 kHz; prints the fastest speed within 3 s, the
        fastest with the stick pushed while it goes on, the simulation's pace meanwhile as a share of that before, and the node that drive_state
        names.
@@ -84,6 +85,12 @@ class Stick:
             if self.hold(1.0, lambda: self.speed >= speed, 3.0):
                 return
 
+    def push_in_trial(self):
+        trial = []
+        rospy.Subscriber("/navvi/trial_state", TrialState, lambda msg: trial.append(msg.state))
+        self.hold(0.0, lambda: trial[-1:] == [TrialState.RUNNING], 60.0)
+        self.push(0.3)
+
     def to_pad(self, *datagrams):
         for datagram in datagrams:
             try:
@@ -114,9 +121,16 @@ class Stick:
         self.hold(forward, lambda: speeds.append(max(abs(self.speed), abs(self.turn))), seconds)
         return max(speeds)
 
+    def crash(self):
+        pid, told = self.pid("/sim_node"), self.times("/navvi/cues", Cue, lambda cue: cue.kind == "simulator_lost")
+        self.push_in_trial()
+        killed = time.monotonic()
+        os.kill(pid, signal.SIGKILL)
+        self.hold(1.0, lambda: told, 10.0)
+        return (since(killed, told),)
+
     def pause(self):
-        pid, told = self.pid("/sim_node"), []
-        rospy.Subscriber("/navvi/cues", Cue, lambda cue: cue.kind == "simulator_lost" and told.append(time.monotonic()))
+        pid, told = self.pid("/sim_node"), self.times("/navvi/cues", Cue, lambda cue: cue.kind == "simulator_lost")
         self.hold(1.0, lambda: False, 0.5)
         halted = time.monotonic()
         os.kill(pid, signal.SIGSTOP)
@@ -163,10 +177,7 @@ class Stick:
         return (fastest if begun else "the twin did not begin",)
 
     def clock(self):
-        trial = []
-        rospy.Subscriber("/navvi/trial_state", TrialState, lambda msg: trial.append(msg.state))
-        self.hold(0.0, lambda: trial[-1:] == [TrialState.RUNNING], 60.0)
-        self.push(0.3)
+        self.push_in_trial()
         clock = rospy.Publisher("/clock", Clock, queue_size=1)
         takers = {"/sim_node", "/trial_node"}
         self.hold(1.0, lambda: takers <= {link.endpoint_id for link in clock.impl.connections}, 20.0)

@@ -1,7 +1,7 @@
 """What happens to the wheels when the person's side dies at full speed."""
 import pytest
 
-from sessions import WORLD, Programs, within
+from sessions import WORLD, Programs, eventually, within
 from navvi_study.record import Record
 
 
@@ -75,6 +75,16 @@ def test_T3_commands_that_piled_up_while_the_simulator_was_halted_do_not_move_th
     within(record_property, "simulator lost", told, 1.0)
     assert pushed >= 0.8
     assert afterwards < 1e-3, "the stick was never neutral"
+
+
+def test_S1_a_killed_simulator_is_announced_and_ends_the_trial(session, tmp_path, record_property):
+    pushed, told = map(float, run_stick(session, "crash"))
+    within(record_property, "simulator lost", told, 1.0)
+    assert pushed >= 0.3
+
+    def ends():
+        return [(end.fields["result"], end.fields["reason"]) for folder in tmp_path.glob("trial-*") for end in Record(folder).of("TRIAL_END")]
+    assert eventually(ends, 30) == [("aborted", "simulator_lost")]
 
 
 def test_C2_a_guide_that_was_halted_moves_nothing_and_calls_nobody_else_lost(session, tmp_path, record_property):
