@@ -148,7 +148,7 @@ def test_a_clock_of_the_person_that_is_wrong_is_set_and_drifts_changes_nothing(s
 def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it(session, record_property):
     wire, lines = session.wire, []
     session.start(wire.person, "roslaunch", str(ROOT / "launch/person.launch"), "operator:=topic", "rviz:=false", "speech:=false",
-                  "press_to_start:=false", f"out:={session.folder}", "feedback_parameters:={listener: topic}")
+                  "clock:=/clock", "press_to_start:=false", f"out:={session.folder}", "feedback_parameters:={listener: topic}")
     observer = session.start(wire.robot, "/usr/bin/python3", "-c", OBSERVER, stdout=open(session.folder / "seen", "w"))
     stick = session.start(wire.person, "/usr/bin/python3", "-c", STICK, stdin=subprocess.PIPE, stdout=open(session.folder / "said", "w"), text=True)
 
