@@ -249,7 +249,7 @@ def test_S6_the_record_repeats_the_simulation_bit_for_bit(trial, tmp_path):
     assert re.match(r"It was recorded with another compiler: GCC 1; here it is GCC \d+\..*\.\nThey differ", result.stdout), result.stdout
 
 
-def test_the_robot_did_not_go_through_anything(trial):
+def test_the_events_are_in_order_and_name_participant_trial_and_place(trial):
     rows = rows_of(trial / "events.csv")
     assert rows and list(rows[0])[:2] == ["onset_s", "duration_s"]
     assert {row["participant"] for row in rows} == {"sub-01"} and {row["trial"] for row in rows} == {trial.name}

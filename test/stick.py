@@ -8,14 +8,14 @@ kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pu
        again, and the kinds of what is said.
 halt   likewise, then halts feedback_node for 3 s; prints when, in s of the monotonic clock, the time in s until the wheels were held, the fastest
        speed in the 3 s after it lives again, and the kinds of what it says until it tells what became of the wheels.
-unguided  once a path leads, pushes to 0.3 m/s, kills nav_node and goes on pushing; prints the slowest speed until guidance came again, and the
-       times in s until that is said to be lost and until it came.
+unguided  HOW: once a path leads, pushes to 0.3 m/s, kills nav_node, or halts it for 1.5 s, as HOW says, `killed` or `halted`, and goes on pushing;
+       prints the slowest speed until guidance came again, the time in s until that is said to be lost, and that from its end until it came.
 pause  likewise, then halts sim_node for 2 s, in which commands pile up; prints the time in s until that is said, and the fastest speed from 0.5 s
        to 3 s after it lives again.
 crash  kills sim_node with SIGKILL in a trial, with the stick pushed; prints the time in s until it is said to be lost.
 intrude  a neutral stick while this process itself commands full speed to /navvi/command, at 1 kHz; prints the fastest speed within 3 s, the
-       fastest with the stick pushed while it goes on, the simulation's pace meanwhile as a share of that before, and the node that drive_state
-       names.
+       fastest with the stick pushed while it goes on, the simulation's pace meanwhile as a share of that before, the commands a second, and the
+       node that drive_state names.
 forge  this process commands a turn to /navvi/command under the name of feedback_node while the stick is pushed; prints the fastest motion, in m/s or
        rad/s, from 0.6 s after its first command for 3 s, the node that drive_state names, and the fastest speed once it is over and the stick
        was neutral.
@@ -149,12 +149,19 @@ class Stick:
         self.hold(0.0, lambda: False, 3.0)
         usual = pace()
         commands = rospy.Publisher("/navvi/command", TwistStamped, queue_size=1000)
-        flood = rospy.Timer(rospy.Duration(0.001), lambda _: commands.publish(self.command(linear=Vector3(x=1.0))))
+        begin, sent = time.monotonic(), []
+
+        def publish(_):
+            for _ in range(min(20, int(1000 * (time.monotonic() - begin)) - len(sent))):
+                commands.publish(self.command(linear=Vector3(x=1.0)))
+                sent.append(time.monotonic())
+        flood = rospy.Timer(rospy.Duration(0.001), publish)
         alone = self.fastest(0.0, 3.0)
         driven = self.fastest(1.0, 3.0)
         flood.shutdown()
+        rate = len(sent) / (time.monotonic() - begin)
         self.hold(1.0, lambda: False, 0.2)  # what came is read
-        return alone, driven, pace() / usual, self.intruder
+        return alone, driven, pace() / usual, rate, self.intruder
 
     def forge(self):
         commands = rospy.Publisher("/navvi/command", TwistStamped, queue_size=1, headers={"callerid": "/feedback_node"})
@@ -244,10 +251,15 @@ class Stick:
         guided, leads = self.times("/navvi/guidance", Guidance), self.times("/navvi/guidance", Guidance, lambda msg: msg.state == Guidance.FOLLOWING)
         self.hold(0.0, lambda: leads, 60.0)
         self.push(0.3)
-        killed, speeds = time.monotonic(), []
-        os.kill(pid, signal.SIGKILL)
-        self.hold(1.0, lambda: speeds.append(self.speed) or since(killed + BEFORE, guided) < NEVER, 10.0)
-        return min(speeds), since(killed, said), since(killed + BEFORE, guided) + BEFORE
+        over = lost = time.monotonic()
+        speeds, halted = [], sys.argv[2] == "halted"
+        os.kill(pid, signal.SIGSTOP if halted else signal.SIGKILL)
+        if halted:
+            self.hold(1.0, lambda: speeds.append(self.speed), 1.5)
+            over = time.monotonic()
+            os.kill(pid, signal.SIGCONT)
+        self.hold(1.0, lambda: speeds.append(self.speed) or since(over + BEFORE, guided) < NEVER, 10.0)
+        return min(speeds), since(lost, said), since(over + BEFORE, guided) + BEFORE
 
     def kill(self):
         pid, said, commands = self.pid("/feedback_node"), self.said(), self.times("/navvi/command", TwistStamped)

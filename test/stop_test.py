@@ -30,11 +30,12 @@ def test_a_pad_that_is_lost_at_full_speed_stops_the_robot(master, tmp_path, plug
 
 
 def test_C5_C7_only_the_guide_drives(session):
-    pushed, alone, driven, pace, intruder = run_stick(session, "intrude")
+    pushed, alone, driven, pace, rate, intruder = run_stick(session, "intrude")
     assert float(pushed) >= 0.3
     assert float(alone) < 1e-3, "another node has moved the robot"
     assert float(driven) >= 0.3, "another node has taken the robot away from the person"
     assert float(pace) >= 0.9, "the simulation is slower"
+    assert float(rate) >= 500, "commands a second: that was no flood"
     assert intruder == "/stick"
 
 
@@ -109,8 +110,9 @@ def test_C1_a_killed_feedback_node_stops_the_robot_and_its_successor_does_not_st
     assert said[:1] == ["robot_stopped"]
 
 
-def test_N1_where_nav_node_is_killed_the_person_drives_on_and_it_comes_back(session, record_property):
-    pushed, slowest, lost, back = map(float, run_stick(session, "unguided"))
+@pytest.mark.parametrize("how", ["killed", "halted"])
+def test_N1_where_nav_node_is_killed_or_halted_the_person_drives_on_and_it_comes_back(session, record_property, how):
+    pushed, slowest, lost, back = map(float, run_stick(session, "unguided", how))
     assert pushed >= 0.3
     assert slowest >= 0.25, "the person may still drive"
     within(record_property, "guidance lost", lost, 1.0)

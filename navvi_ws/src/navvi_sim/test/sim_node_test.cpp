@@ -14,10 +14,16 @@
 #include <tf2_ros/transform_listener.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <thread>
+#include <vector>
 
 #include "measured.hpp"
 
@@ -141,6 +147,37 @@ TEST_F(SimNode, S4_does_not_outrun_the_wall_clock) {
   const ros::Time sim = clock.last().clock;
   ASSERT_TRUE(wait_until([&] { return clock.last().clock - sim > ros::Duration(1.0); }));
   EXPECT_GT((ros::WallTime::now() - wall).toSec(), 0.9);
+}
+
+TEST_F(SimNode, S4_takes_no_larger_steps_where_others_hold_the_processors) {
+  std::vector<std::int64_t> stamps;  // ns
+  const ros::Subscriber each = ros::NodeHandle().subscribe<nav_msgs::Odometry>(
+      "odom", 1000, [&](const nav_msgs::Odometry::ConstPtr& msg) {
+        stamps.push_back(static_cast<std::int64_t>(msg->header.stamp.toNSec()));
+      });
+  const auto steps = [&] {
+    stamps.clear();
+    EXPECT_TRUE(wait_until([&] { return stamps.size() > 200; }));
+    std::vector<std::int64_t> found(stamps.size());
+    std::adjacent_difference(stamps.begin(), stamps.end(), found.begin());
+    found.erase(found.begin());
+    return found;
+  };
+  const std::vector<std::int64_t> usual = steps();
+  const std::int64_t step = *std::min_element(usual.begin(), usual.end());
+  ASSERT_GT(step, 0);
+  std::atomic<bool> over{false};
+  std::vector<std::thread> others(2 * std::max(1U, std::thread::hardware_concurrency()));
+  for (std::thread& other : others)
+    other = std::thread([&over] {
+      while (!over) continue;
+    });
+  const std::vector<std::int64_t> crowded = steps();
+  over = true;
+  for (std::thread& other : others) other.join();
+  // Of several steps: messages between two that came were lost on their way here.
+  for (const std::int64_t found : crowded) EXPECT_EQ(found % step, 0) << found << " ns";
+  EXPECT_GT(std::count(crowded.begin(), crowded.end(), step), 100);
 }
 
 TEST_F(SimNode, moves_only_after_a_neutral_command) {

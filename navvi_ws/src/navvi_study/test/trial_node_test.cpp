@@ -22,6 +22,7 @@
 #include <utility>
 #include <vector>
 
+#include "measured.hpp"
 #include "record/figures.hpp"
 #include "record/journal.hpp"
 #include "temp_folder.hpp"
@@ -277,10 +278,18 @@ TEST_F(TrialNodeProcess, L5_a_signal_closes_the_trial_as_aborted_and_keeps_its_b
   Process node(command());
   begin(world);
   node.signal(SIGTERM);
+  const auto signalled = navvi_test::Clock::now();
   ASSERT_TRUE(run(world, [&] { return !node.running(); }));
+  navvi_test::expect_within(2000, signalled, "trial and bag closed");
   const fs::path folder = only_folder();
-  EXPECT_EQ(summary_in(folder)["result"], "aborted");
+  auto summary = summary_in(folder);
+  EXPECT_EQ(summary["result"], "aborted");
+  EXPECT_EQ(summary["bag"], "ok");
   EXPECT_TRUE(fs::exists(folder / "trial.bag"));
+  const auto journal =
+      record::read_journal(navvi_files::read_file(folder / "journal.csv").value_or(""));
+  EXPECT_TRUE(std::any_of(journal.rows.begin(), journal.rows.end(),
+                          [](const auto& row) { return row.type == "TRIAL_END"; }));
 }
 
 TEST_F(TrialNodeProcess, M2_a_second_node_of_its_name_ends_the_trial_with_its_record_whole) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace navvi_feedback::cues {
 namespace {
@@ -166,6 +168,23 @@ TEST(CueQueue, says_drops_and_cuts_by_the_rules_of_the_table) {
       EXPECT_EQ(step.stop, std::any_of(step.events.begin(), step.events.end(), cut));
     }
   }
+}
+
+TEST(CueQueue, F5_of_a_hundred_texts_at_once_says_the_newest_after_what_is_important) {
+  CueQueue queue;
+  (void)queue.update({text("a")}, false, 0.0);
+  std::vector<Cue> burst(100, text("b"));
+  for (std::size_t i = 0; i < burst.size(); ++i) burst[i].text = std::to_string(i);
+  burst.insert(burst.begin() + 50, important("hit"));
+  const auto step = queue.update(burst, true, 0.1);
+  EXPECT_TRUE(step.stop);
+  EXPECT_EQ(step.start, "text of hit");
+  EXPECT_EQ(std::count_if(step.events.begin(), step.events.end(),
+                          [](const CueEvent& event) { return event.stage == CueStage::dropped; }),
+            99);
+  EXPECT_EQ(queue.update({}, false, 0.5).start, "99");
+  (void)queue.update({}, false, 1.0);
+  EXPECT_TRUE(queue.empty());
 }
 
 TEST(CueQueue, F5_drops_what_waited_too_long) {
