@@ -339,7 +339,7 @@ def test_kill_9_loses_no_row_that_was_acknowledged_and_doubles_none(tmp_path):
         process = multiprocessing.Process(target=lambda: (os.dup2(writer, 1), setattr(sys, "stdout", os.fdopen(1, "w")), _write_for_ever(path)))
         process.start()
         os.close(writer)
-        time.sleep(0.4)
+        assert eventually(lambda: path.exists() and path.read_bytes().count(b"\n") > told + 5, 60)
         os.kill(process.pid, signal.SIGKILL)
         process.join()
         with os.fdopen(reader) as lines:
