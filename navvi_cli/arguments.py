@@ -14,9 +14,10 @@ CHOICES = {
     "vision": ["high_contrast", "yellow_on_black", "large", "color_blind", "paper"], "view": ["chase", "top", "forward"],
 }
 NUMBER = r"[0-9]+(\.[0-9]+)?", "numbers, 0 or more"
+ABOVE = r"(?=.*[1-9])" + NUMBER[0], "numbers above 0"
 COORDINATE = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?"
 FORMS = {
-    "limit": NUMBER, "rate": (r"(?=.*[1-9])" + NUMBER[0], "numbers above 0"), "skip": NUMBER, "pace": NUMBER,
+    "limit": NUMBER, "rate": ABOVE, "radius": ABOVE, "height": ABOVE, "skip": NUMBER, "pace": NUMBER,
     "port": (r"[0-9]{1,5}", "numbers of ports"),
     "robot": (r"[A-Za-z0-9.-]{1,253}(:[0-9]{1,5})?", "hosts, such as 10.8.0.2 or 10.8.0.2:11312"),
     "address": (r"([0-9]{1,3}\.){3}[0-9]{1,3}", "addresses of this machine, such as 10.8.0.2"),

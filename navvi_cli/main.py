@@ -52,6 +52,15 @@ def main(words):
     except OSError as problem:
         aside(f"{problem.filename or 'a file or the output'} cannot be used: {problem.strerror or problem}.")
         return 2
+    except ModuleNotFoundError as missing:
+        package = f"python3-{str(missing.name).partition('.')[0].lower()}"
+        if "navvi" in package:
+            raise
+        aside(f"this needs the package {package}; \"sudo apt install {package}\" installs it.")
+        return 2
+    except UnicodeError as problem:
+        aside(f"what was given is not in UTF-8, as is needed: {problem}.")
+        return 2
     except KeyboardInterrupt:
         aside("stopped by Ctrl-C, before it was done. The same command goes on from here.")
         return 130

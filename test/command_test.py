@@ -115,16 +115,28 @@ def test_usage_names_the_values_of_an_option_and_breaks_between_words():
     assert "--records all|failed|none: " in helps[batch] and re.search(r"^\./navvi [a-z|]+\|\n[a-z|]+ \.\.\.$", helps[study], re.M)
 
 
-def test_a_full_disk_is_a_sentence_with_exit_code_2(capsys, monkeypatch):
+@pytest.mark.parametrize("problem, sentence", [
+    (OSError(28, "No space left on device", "/some/rows.csv"), "/some/rows.csv cannot be used: No space left on device."),
+    (ModuleNotFoundError("No module named 'PIL.Image'", name="PIL.Image"), "this needs the package python3-pil; \"sudo apt install python3-pil\" installs it."),
+    (UnicodeDecodeError("utf-8", b"caf\xe9", 3, 4, "unexpected end of data"),
+     "what was given is not in UTF-8, as is needed: 'utf-8' codec can't decode byte 0xe9 in position 3: unexpected end of data."),
+], ids=lambda given: type(given).__name__)
+def test_what_no_command_foresees_is_a_sentence_with_exit_code_2(problem, sentence, capsys, monkeypatch):
     from navvi_cli import main
 
-    def full(words):
-        raise OSError(28, "No space left on device", "/some/rows.csv")
-    monkeypatch.setattr(main, "run", full)
+    def broken(words):
+        raise problem
+    monkeypatch.setattr(main, "run", broken)
     monkeypatch.setattr(main.signal, "signal", lambda *given: None)
     monkeypatch.setattr(main.sys, "stdin", None)
     monkeypatch.setattr(main.sys, "stdout", types.SimpleNamespace(reconfigure=lambda **given: None, flush=lambda: None))
-    assert main.main([]) == 2 and capsys.readouterr().err == "navvi: /some/rows.csv cannot be used: No space left on device.\n"
+    assert main.main([]) == 2 and capsys.readouterr().err == f"navvi: {sentence}\n"
+
+
+@pytest.mark.parametrize("text", [b"- {name: caf\xe9, x: 1, y: 2}\n", b"- {name: a, x: 1\n"], ids=["latin_1", "no_yaml"])
+def test_a_job_that_cannot_be_read_is_named(text, tmp_path):
+    (tmp_path / "job.yaml").write_bytes(text)
+    assert f"{tmp_path}/job.yaml cannot be read; YAML in UTF-8 is allowed" in refusal(lambda: run.job_of({"jobs": tmp_path / "job.yaml"}))
 
 
 def test_help_is_usage_summary_text_arguments_and_exit_codes(command, capsys):
@@ -217,10 +229,11 @@ def test_a_wrong_word_is_refused(launch_file, word, sentence):
     ("start:=-6.5,-5,1.57", True), ("start:=1,2", False), ("start:=", True), ("goal:=0.2,-1", True), ("goal:=1e1,.5", True), ("goal:=1", False),
     ("limit:=30", True), ("limit:=-1", False), ("participant:=sub-01", True), ("participant:=Ann Smith", False), ("person:=anna", True),
     ("person:=", False), ("person:=../x", False), ("seed:=1.5", False),
+    ("radius:=20cm", False), ("radius:=0.2", True), ("radius:=0", False), ("height:=1,2", False), ("height:=1.2", True),
     ("seed:=99999999999", False), ("rate:=0", False), ("rate:=0.5", True), ("seed:=1\n", False), ("out:=-x", False), ("out:=./-x", True), ("out:=a/-x", True),
 ])
 def test_the_form_of_a_value_is_checked(word, good):
-    launch = "replay.launch" if word.startswith("rate") else "live.launch"
+    launch = {"rate": "replay.launch", "radius": "robot.launch", "height": "robot.launch"}.get(word.partition(":=")[0], "live.launch")
     check = lambda: arguments.words_for(arguments.LaunchFile(launch), [word])  # noqa: E731
     assert check() is not None if good else "allowed are" in refusal(check)
 

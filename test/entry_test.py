@@ -98,6 +98,7 @@ def test_shell_scripts_are_clean():
     (["watch", "port:=1"], "no session runs at port:=1"),
     (["watch", "a/b/c"], "holds no trial.bag"),
     (["robot", "check", "wheel:=/a"], "\"wheel\" is unknown"),
+    (["robot", "check", "radius:=20cm"], "radius:=20cm is not allowed; allowed are numbers above 0."),
     (["robot", "check", "perception/no_return:=fre"], "perception_node refuses this: "),
     (["robot", "check", "perception/foo:=1"], "the key \"foo\" is unknown"),
     (["replay"], "missing: TRIAL"),

@@ -141,7 +141,10 @@ def check(words):
 def job_of(words):
     """The places of the job; none without one."""
     import yaml
-    return words.get("jobs") and yaml.safe_load(words["jobs"].read_text(encoding="utf-8")) or []
+    try:
+        return words.get("jobs") and yaml.safe_load(words["jobs"].read_text(encoding="utf-8")) or []
+    except (UnicodeError, yaml.YAMLError):
+        fail(f"{words['jobs']} cannot be read; YAML in UTF-8 is allowed, which most editors offer when they save.", 2)
 
 
 def check_lists(words):
