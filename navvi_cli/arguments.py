@@ -31,7 +31,7 @@ FORMS = {
 # Parameters that name a file: nodes run in another folder than the command.
 FILES = ("feedback/phrases", "feedback/questions", "feedback/record", "nav/mesh/zones", "perception/prior")
 # The command itself sets these.
-INTERNAL = re.compile(r".*parameters|version|bag")
+INTERNAL = re.compile(r".*parameters|version|bag|clock|far")
 
 
 class LaunchFile:

@@ -117,7 +117,8 @@ def test_usage_names_the_values_of_an_option_and_breaks_between_words():
 
 @pytest.mark.parametrize("problem, sentence", [
     (OSError(28, "No space left on device", "/some/rows.csv"), "/some/rows.csv cannot be used: No space left on device."),
-    (ModuleNotFoundError("No module named 'PIL.Image'", name="PIL.Image"), "this needs the package python3-pil; \"sudo apt install python3-pil\" installs it."),
+    (ModuleNotFoundError("No module named 'PIL.Image'", name="PIL.Image"),
+     "this needs the package python3-pil; \"sudo apt install python3-pil\" installs it."),
     (UnicodeDecodeError("utf-8", b"caf\xe9", 3, 4, "unexpected end of data"),
      "what was given is not in UTF-8, as is needed: 'utf-8' codec can't decode byte 0xe9 in position 3: unexpected end of data."),
 ], ids=lambda given: type(given).__name__)
@@ -413,8 +414,8 @@ def test_a_calibration_that_was_stopped_is_not_told_as_done(interrupted, code, t
         assert len(kept) == len(record) and kept[0].startswith(record[0])
 
 
-@pytest.mark.parametrize("tells, contacts", [(False, "unknown"), (True, "counted")])
-def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_goodbye(tells, contacts, tmp_path, monkeypatch):
+@pytest.mark.parametrize("tells, contacts, patience", [(False, "unknown", []), (True, "counted", ["patience:=30"])])
+def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_goodbye(tells, contacts, patience, tmp_path, monkeypatch):
     def finish(seconds):
         if seconds > 3.0:
             raise KeyboardInterrupt
@@ -423,8 +424,12 @@ def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_g
                                                                            near=types.SimpleNamespace(finish=finish)))
     monkeypatch.setattr(run, "prepare", lambda *_: None)
     monkeypatch.setattr(run, "drive", lambda _, words, *__: driven.append(words) or 0)
-    assert run.far_session(["robot:=r", "operator:=simulated", "rviz:=false", f"out:={tmp_path}"]) == 0
+    given = ["robot:=r", "operator:=simulated", "rviz:=false", f"out:={tmp_path}"]
+    assert run.far_session([*given, *patience]) == 0
     assert driven[0]["contacts"] == contacts, "which its master says"
+    assert driven[0]["patience"] == ("30" if patience else "900") and driven[0]["clock"] == "/navvi/clock"
+    assert "\"clock\" is unknown" in refusal(lambda: run.far_session([*given, "clock:=/clock"])), "the command itself sets it"
+    assert "\"far\" is unknown" in refusal(lambda: arguments.words_for(arguments.LaunchFile("robot_side.launch"), ["far:=false"]))
 
 
 # --- the end of a session, and what its record says

@@ -87,13 +87,15 @@ def test_what_fails_where_others_hold_the_processors_is_left_out_unless_it_fails
         for loop in loops:
             loop.kill()
             loop.wait()
-    assert {name: outcome for name, (outcome, _) in found.items()} == {"steady": "passed", "late": "skipped", "wrong": "failed", "measured": "failed"}, found
+    outcomes = {"steady": "passed", "late": "skipped", "wrong": "failed", "measured": "failed"}
+    assert {name: outcome for name, (outcome, _) in found.items()} == outcomes, found
     assert re.match(r"other programs held (\d\d|100)% of this machine's processors", found["late"][1])
 
 
 @pytest.mark.parametrize("one, other, alike", [
-    ("E   assert 12.25 == 3", "E   assert 1e-07 == 3", True), ("E   at 0x7f12ab", "E   at 0xab", True), ("E   /tmp/pytest-7/a", "E   /tmp/pytest-18/a", True),
-    ("E   held after 0.31 s", "E   held after 1.02 s", False), ("E   300 ms late", "E   12 ms late", False), ("[  FAILED  ] A.b (300 ms)", "[  FAILED  ] A.b (12 ms)", True),
+    ("E   assert 12.25 == 3", "E   assert 1e-07 == 3", True), ("E   at 0x7f12ab", "E   at 0xab", True),
+    ("E   /tmp/pytest-7/a", "E   /tmp/pytest-18/a", True), ("[  FAILED  ] A.b (300 ms)", "[  FAILED  ] A.b (12 ms)", True),
+    ("E   held after 0.31 s", "E   held after 1.02 s", False), ("E   300 ms late", "E   12 ms late", False),
     ("E   still, beside 2.5 a processor", "E   still, beside 3.5 a processor", False), ("E   assert 3 == 4", "E   assert 3 != 4", False)])
 def test_failures_are_alike_where_only_what_is_measured_differs_but_for_wall_time(one, other, alike):
     assert (run_tests.CHANCE.sub("", one) == run_tests.CHANCE.sub("", other)) == alike

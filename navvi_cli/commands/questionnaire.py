@@ -22,5 +22,5 @@ def arguments(parser):
 
 def run(args):
     give("questionnaire", args.words, "feedback/questions:=",
-         "which questions? feedback/questions:=FILE is needed: a YAML file with the key items, a list of questions, each with name, ask, values and spoken, or with name, "
-         "ask and point: true.")
+         "which questions? feedback/questions:=FILE is needed: a YAML file with the key items, a list of questions, each with name, ask, values "
+         "and spoken, or with name, ask and point: true.")

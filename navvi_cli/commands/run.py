@@ -86,7 +86,7 @@ def far_session(given):
         words.parameters.append("trial/record:=robot")
     prepare(words, ["session", *(["navvi_rviz"] if words["rviz"] == "true" else [])], [FEEDBACK], check_lists)
     network = FarNetwork(where)
-    words["patience"] = "900"  # over a slow connection nodes take their time to meet
+    words.setdefault("patience", "900")  # over a slow connection nodes take their time to meet
     words["clock"] = network.clock()
     words.setdefault("contacts", "counted" if network.tells_contacts else "unknown")  # without a bumper
     try:
