@@ -631,6 +631,16 @@ def test_a_run_of_the_tests_that_was_killed_has_not_passed(end, code, tmp_path):
     assert done.returncode == code, done.stdout + done.stderr
 
 
+def test_F6_a_picture_that_crashes_is_started_anew_five_times(tmp_path):
+    for name, text in ("rviz", f"echo begun >>{tmp_path}/log; kill -SEGV $$"), ("sleep", ""):
+        (tmp_path / name).write_text(f"#!/bin/sh\n{text}\n")
+        (tmp_path / name).chmod(0o755)
+    env = {"PATH": f"{tmp_path}:{os.environ['PATH']}"}
+    done = subprocess.run([ROOT / "navvi_ws/src/navvi_rviz/scripts/readable", tmp_path / "rviz"], env=env, capture_output=True, text=True, timeout=60)
+    assert (tmp_path / "log").read_text().count("begun") == 1 + 5
+    assert done.returncode == 128 + 11 and done.stderr.count("the program rviz was ended by signal 11.") == 6, done.stderr
+
+
 @pytest.mark.parametrize("steps, answer", [(0, "up to date"), (1, "to build"), (20000, "to build")])
 def test_however_much_is_to_build_it_is_seen(steps, answer, tmp_path):
     (tmp_path / "ninja").write_text(f"#!/bin/sh\nfor i in $(seq {steps}); do echo \"[$i/{steps}] Building CXX object x$i.o\"; done\n"
