@@ -10,6 +10,7 @@ from .places import program
 from .say import fail, say
 from .session import Launch, check_operator, check_parameters, has_display, has_pad, prepare
 
+NOT_KEPT = "The results of the lesson are not kept"  # as feedback_node logs
 CHOICES = {"operator": ["auto", "pad", "keyboard"], "speech": ["true", "false"]}
 
 
@@ -39,14 +40,24 @@ def give(lesson, given, needed="", sentence=""):
     with tempfile.TemporaryDirectory() as folder:
         if out:
             make(out)
+        check_record(words)
         log = Path(f"{kept}.log") if kept else Path(folder) / "lesson.log"
         say(f"{lesson} begins in some seconds, with the {words['operator']}; what to press is spoken. Ctrl-C in this terminal ends it, too.")
         launch = Launch(launch_file, words, log, network)
         if not launch.run() and not launch.interrupted:
             fail(f"it broke off: {launch.log.fatal or log.read_text(errors='replace')[-500:]}")
+        if NOT_KEPT in log.read_text(errors="replace"):
+            fail("what was measured could not be written, as said above; it is needed once more, in a place that can be, such as out:=/tmp.")
         if kept:
             say(f"the log is {log}{f', what was measured {kept}.csv' if Path(f'{kept}.csv').exists() else ''}.")
     return 130 if launch.interrupted else 0
+
+
+def check_record(words):
+    """Before a person has spent minutes."""
+    for path in (word.partition(":=")[2] for word in words.parameters if word.startswith("feedback/record:=/")):
+        if os.path.isdir(path) or not os.access(os.path.dirname(path), os.W_OK):
+            fail(f"feedback/record:={path} cannot be written; a file in a folder that can be is needed.", 2)
 
 
 def make(folder):

@@ -401,13 +401,37 @@ def test_S1_a_persons_session_ends_some_seconds_after_its_simulator_and_says_so(
                                       "navvi: the simulator has ended, and the session ends in 1 s; the same command starts another.\n")
 
 
+def lesson_of(monkeypatch, launch, logged=""):
+    """Stands in for all but the words of a lesson, which come in the list that this returns."""
+    given = []
+
+    def begin(_, words, log, __):
+        log.write_text(logged)
+        given.append(words)
+        return launch
+    for name, stand_in in ("has_pad", lambda: True), ("check_operator", lambda *_: None), ("prepare", lambda *_: None), ("Network", lambda: None), \
+            ("Launch", begin):
+        monkeypatch.setattr(lessons, name, stand_in)
+    return given
+
+
+def test_a_lesson_whose_table_cannot_be_written_has_not_succeeded(tmp_path, monkeypatch):
+    sources = (ROOT / "navvi_ws/src/navvi_feedback/src/node/settings.cpp").read_text()
+    assert lessons.NOT_KEPT in sources
+    launch = types.SimpleNamespace(run=lambda: True, interrupted=False)
+    given = lesson_of(monkeypatch, launch, f"[ERROR] [1.0]: {lessons.NOT_KEPT}: cannot write /x: No space left on device.\n")
+    args = types.SimpleNamespace(words=["person:=anna", f"out:={tmp_path}"])
+    assert "could not be written, as said above" in refusal(lambda: calibrate.run(args), 1) and given
+    (tmp_path / "folder").mkdir()
+    for path in "none/told.csv", "folder":
+        args.words = ["person:=anna", f"feedback/record:={tmp_path}/{path}"]
+        assert f"feedback/record:={tmp_path}/{path} cannot be written" in refusal(lambda: calibrate.run(args))
+    assert len(given) == 1, "before it begins"
+
+
 @pytest.mark.parametrize("interrupted, code", [(True, 130), (False, 0)])
 def test_a_calibration_that_was_stopped_is_not_told_as_done(interrupted, code, tmp_path, monkeypatch):
-    given = []
-    launch = types.SimpleNamespace(run=lambda: True, interrupted=interrupted)
-    for name, stand_in in ("has_pad", lambda: True), ("check_operator", lambda *_: None), ("prepare", lambda *_: None), ("Network", lambda: None), \
-            ("Launch", lambda _, words, *__: given.append(words) or launch):
-        monkeypatch.setattr(lessons, name, stand_in)
+    given = lesson_of(monkeypatch, types.SimpleNamespace(run=lambda: True, interrupted=interrupted))
     for words, record in ([], [f"feedback/record:={tmp_path}/calibrate-"]), (["feedback/record:=/tmp/own.csv"], ["feedback/record:=/tmp/own.csv"]):
         assert (calibrate.run(types.SimpleNamespace(words=["person:=anna", f"out:={tmp_path}", *words])) or 0) == code
         kept = [word for word in given[-1].parameters if "record" in word]
