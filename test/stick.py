@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A joy driver's stick for tests, in a process of its own: `stick.py push`, `kill`, `halt`, `unguided`, `pause`, `crash`, `intrude`, `forge`,
-`twin`, `clock`, `garbage`, or `lose`.
+`twin`, `clock`, `garbage`, `lose`, or `churn`.
 
 push   neutral, then full forward, until the robot drives at 0.3 m/s; prints its fastest speed in m/s.
 kill   likewise to 0.8 m/s, then kills feedback_node with SIGKILL and goes on pushing; prints the time in s until the last
@@ -26,9 +26,13 @@ garbage  sends what is no message to each port of each node, with the stick push
        and by how many MB any node has grown.
 lose   LETTER PAD: as kill, by the pad in memory at the socket PAD; then it is lost as the letter says (virtual_pad.cpp), its stick held. Prints
        the time in s until the wheels were commanded to zero, and until the robot stood still.
+churn  TIMES PAD: by the pad in memory, drives and at a random moment unplugs it and plugs it in again, or each fifth time kills feedback_node, the
+       stick held all the time. Prints how often it drove, how often feedback_node ended by itself, and the fastest speed of a stick that was not
+       neutral since.
 """
 import os
 import pathlib
+import random
 import signal
 import socket
 import struct
@@ -51,7 +55,7 @@ from sessions import eventually
 class Stick:
     def __init__(self):
         rospy.init_node("stick", disable_rostime=True)
-        self.speed, self.turn, self.stopped, self.intruder, self.wanted, self.stamp = 0.0, 0.0, None, "", 0.0, rospy.Time()
+        self.speed, self.turn, self.place, self.stopped, self.intruder, self.wanted, self.stamp = 0.0, 0.0, 0.0, None, "", 0.0, rospy.Time()
         rospy.Subscriber("/odom", Odometry, self.note_motion, tcp_nodelay=True)
         rospy.Subscriber("/navvi/command", TwistStamped, lambda msg: setattr(self, "wanted", msg.twist.linear.x), tcp_nodelay=True)
         rospy.Subscriber("/navvi/drive_state", DriveState, self.note_stop, tcp_nodelay=True)
@@ -60,6 +64,7 @@ class Stick:
 
     def note_motion(self, msg):
         self.speed, self.turn, self.stamp = msg.twist.twist.linear.x, msg.twist.twist.angular.z, msg.header.stamp
+        self.place = msg.pose.pose.position.x
 
     def note_stop(self, msg):
         self.intruder = msg.intruder
@@ -70,8 +75,8 @@ class Stick:
         """Holds the stick until the condition is met or the time is over; returns whether it was met."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
-            if what == "lose":
-                self.to_pad(b"b", struct.pack("4f", 0.0, forward, 0.0, float(forward == 0.0)))  # Start begins the trial
+            if what in ("lose", "churn"):
+                self.to_pad(b"b", struct.pack("4f", 0.0, forward, 0.0, float(forward == 0.0 and what == "lose")))  # Start begins the trial
             else:
                 self.joy.publish(Joy(axes=[0.0, forward], buttons=[0, 0]))
             if until():
@@ -79,11 +84,13 @@ class Stick:
             time.sleep(0.01)
         return False
 
-    def push(self, speed):
+    def push(self, speed, forward=1.0):
+        """Returns whether it drove."""
         for _ in range(10):  # the nodes may still be on their way
             self.hold(0.0, lambda: False, 1.0)
-            if self.hold(1.0, lambda: self.speed >= speed, 3.0):
-                return
+            if self.hold(forward, lambda: forward * self.speed >= speed, 3.0):
+                return True
+        return False
 
     def push_in_trial(self):
         trial = []
@@ -105,6 +112,24 @@ class Stick:
             eventually(done, 5.0)
             times.append(time.monotonic() - lost)
         return times
+
+    def churn(self):
+        draw, begin, drove, ended, moved = random.Random(1), self.place, 0, 0, 0.0
+        for count in range(1, int(sys.argv[2]) + 1):
+            forward = 1.0 if self.place < begin + 1.5 else -1.0
+            drove += self.push(0.1, forward)
+            pid = self.pid("/feedback_node")
+            self.hold(forward, lambda: False, draw.uniform(0.0, 0.5))
+            if count % 5 == 0:
+                os.kill(pid, signal.SIGKILL)
+            else:
+                self.to_pad(b"u")
+                self.hold(forward, lambda: False, draw.uniform(0.0, 0.3))
+                self.to_pad(b"p")
+            self.hold(forward, lambda: False, 1.0)  # until it stands
+            moved = max(moved, self.fastest(forward, draw.uniform(0.2, 1.5)))
+            ended += count % 5 > 0 and self.pid("/feedback_node") != pid
+        return drove, ended, moved
 
     def command(self, **twist):
         """With the robot's time."""

@@ -1,4 +1,6 @@
 """What happens to the wheels when the person's side dies at full speed."""
+import os
+
 import pytest
 
 from sessions import WORLD, Programs, eventually, within
@@ -17,16 +19,33 @@ def run_stick(session, *words):
     return session.person("stick.py", *words).split()
 
 
+def by_pad(master, folder, plugged, *words):
+    """A session of a person whose pad is in memory; what `programs.run` starts has none."""
+    programs = Programs(master | plugged | {"ALSOFT_DRIVERS": "null"}, folder / "log")
+    programs.launch("live.launch", "operator:=pad", f"world:={WORLD}", "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false", "rviz:=false",
+                    f"out:={folder}", *words)
+    programs.env = master
+    return programs
+
+
 @pytest.mark.parametrize("letter, bound", [("u", 0.25), ("f", 0.5)], ids=["J1_is_unplugged", "J2_falls_silent"])
 def test_a_pad_that_is_lost_at_full_speed_stops_the_robot(master, tmp_path, plugged, record_property, letter, bound):
-    with Programs(master | plugged | {"ALSOFT_DRIVERS": "null"}, tmp_path / "log") as programs:
-        programs.launch("live.launch", "operator:=pad", f"world:={WORLD}", "start:=-3.2,0.4,0", "goal:=3,0.4", "speech:=false", "rviz:=false",
-                        f"out:={tmp_path}")
-        programs.env = master
+    with by_pad(master, tmp_path, plugged) as programs:
         speed, held, still = map(float, run_stick(programs, "lose", letter, plugged["VIRTUAL_PAD"]))
     assert speed >= 0.8
     within(record_property, "wheels held", held, bound)
     within(record_property, "still", still, bound + 0.25)
+
+
+def test_K4_pads_that_come_and_go_and_guides_that_are_killed_move_nothing_without_neutral(master, tmp_path, plugged):
+    """The soak has 2500 rounds, a fifth of them kills: in some 3 hours."""
+    rounds = int(os.environ.get("NAVVI_CHURN", 10))
+    with by_pad(master, tmp_path, plugged, "trial_parameters:={press_to_start: false}") as programs:
+        told = programs.person("stick.py", "churn", rounds, plugged["VIRTUAL_PAD"], seconds=120 + 60 * rounds)
+    speed, drove, ended, moved = map(float, told.split())
+    assert speed >= 0.3 and drove == rounds, told
+    assert not ended, "feedback_node has crashed"
+    assert moved < 1e-3, "the stick was never neutral"
 
 
 def test_C5_C7_only_the_guide_drives(session):

@@ -1,11 +1,12 @@
 // Preloaded into a program that looks for game controllers, it plugs in SDL's own virtual one. Its stick and buttons come by datagrams
 // to the socket $VIRTUAL_PAD: four floats, left and forward in [-1, 1], then 1 for each of the buttons A and Start that is down; or one letter:
-// b its motion sensor begins to stream, f its link freezes, u it is unplugged. What the motors are told goes to $VIRTUAL_PAD.motors: two
+// b its motion sensor begins to stream, f its link freezes, u it is unplugged, p it is plugged in again. What the motors are told goes to $VIRTUAL_PAD.motors: two
 // floats, left and right in [0, 1].
 #include <SDL.h>
 #include <dlfcn.h>
 #include <sys/socket.h>
 #include <sys/un.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
@@ -19,6 +20,7 @@ namespace {
 
 int g_socket = -1;
 std::atomic<bool> g_streams{false};
+std::atomic<SDL_JoystickID> g_pad{-1};
 
 /// SDL's function, of the program's own library.
 #define SDL(name) reinterpret_cast<decltype(&name)>(::dlsym(RTLD_NEXT, #name))
@@ -36,24 +38,38 @@ int on_rumble(void* motors, Uint16 left, Uint16 right) {
   return 0;
 }
 
-void stream(SDL_JoystickID pad) {
+void stream() {
   for (const auto push = SDL(SDL_PushEvent);; std::this_thread::sleep_for(std::chrono::milliseconds(10))) {
     SDL_Event event = {};
     event.csensor.type = SDL_CONTROLLERSENSORUPDATE;
-    event.csensor.which = pad;
+    event.csensor.which = g_pad;
     event.csensor.sensor = SDL_SENSOR_GYRO;
     if (g_streams) push(&event);
   }
 }
 
-void unplug(SDL_JoystickID pad) {
+void unplug() {
   for (int index = SDL(SDL_NumJoysticks)(); --index >= 0;)
-    if (SDL(SDL_JoystickGetDeviceInstanceID)(index) == pad) SDL(SDL_JoystickDetachVirtual)(index);
+    if (SDL(SDL_JoystickGetDeviceInstanceID)(index) == g_pad) SDL(SDL_JoystickDetachVirtual)(index);
+}
+
+SDL_Joystick* attach() {
+  static sockaddr_un motors = address(std::getenv("VIRTUAL_PAD") + std::string(".motors"));
+  SDL_VirtualJoystickDesc desc = {};
+  desc.version = SDL_VIRTUAL_JOYSTICK_DESC_VERSION;
+  desc.type = SDL_JOYSTICK_TYPE_GAMECONTROLLER;
+  desc.naxes = SDL_CONTROLLER_AXIS_MAX;
+  desc.nbuttons = SDL_CONTROLLER_BUTTON_MAX;
+  desc.name = "virtual pad";
+  desc.userdata = &motors;
+  desc.Rumble = &on_rumble;
+  SDL_Joystick* const pad = SDL(SDL_JoystickOpen)(SDL(SDL_JoystickAttachVirtualEx)(&desc));
+  if (pad != nullptr) g_pad = SDL(SDL_JoystickInstanceID)(pad);
+  return pad;
 }
 
 void obey(SDL_Joystick* pad) {
-  const SDL_JoystickID id = SDL(SDL_JoystickInstanceID)(pad);
-  std::thread(stream, id).detach();
+  std::thread(stream).detach();
   const auto set_axis = SDL(SDL_JoystickSetVirtualAxis);
   const auto set_button = SDL(SDL_JoystickSetVirtualButton);
   std::array<float, 4> hand{};
@@ -61,7 +77,8 @@ void obey(SDL_Joystick* pad) {
     if (size == 1) {
       const char letter = *reinterpret_cast<const char*>(hand.data());
       g_streams = letter == 'b';
-      if (letter == 'u') unplug(id);
+      if (letter == 'u') unplug();
+      if (letter == 'p') pad = attach();
       continue;
     }
     set_axis(pad, SDL_CONTROLLER_AXIS_LEFTX, static_cast<Sint16>(-32767.0F * hand[0]));
@@ -72,20 +89,11 @@ void obey(SDL_Joystick* pad) {
 }
 
 void plug_in(const std::string& path) {
-  static sockaddr_un motors = address(path + ".motors");
   const sockaddr_un own = address(path);
+  ::unlink(path.c_str());  // of a program that was killed
   g_socket = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (::bind(g_socket, reinterpret_cast<const sockaddr*>(&own), sizeof(own)) != 0) return;
-  SDL_VirtualJoystickDesc pad = {};
-  pad.version = SDL_VIRTUAL_JOYSTICK_DESC_VERSION;
-  pad.type = SDL_JOYSTICK_TYPE_GAMECONTROLLER;
-  pad.naxes = SDL_CONTROLLER_AXIS_MAX;
-  pad.nbuttons = SDL_CONTROLLER_BUTTON_MAX;
-  pad.name = "virtual pad";
-  pad.userdata = &motors;
-  pad.Rumble = &on_rumble;
-  SDL_Joystick* const joystick = SDL(SDL_JoystickOpen)(SDL(SDL_JoystickAttachVirtualEx)(&pad));
-  if (joystick != nullptr) std::thread(obey, joystick).detach();
+  if (SDL_Joystick* const pad = attach(); pad != nullptr) std::thread(obey, pad).detach();
 }
 
 }  // namespace
