@@ -114,11 +114,11 @@ def test_a_session_can_be_watched_on_both_machines(session):
                         f"out:={session.folder}", output=session.folder / "person.txt")
     assert eventually(lambda: [*session.folder.glob("trial-*")], 200), (session.folder / "person.txt").read_text()
     told = {side: session.folder / f"watched-{side.address}.txt" for side in (session.wire.person, session.wire.robot)}
+    watches = {side: session.start(side, "./navvi", "watch", "pace:=0", output=output) for side, output in told.items()}
     for side, output in told.items():
-        watch = session.start(side, "./navvi", "watch", "pace:=0", output=output)
         assert eventually(lambda: "Said: " in output.read_text(), 60), output.read_text()
         sockets = subprocess.check_output([*side.enter, "ss", "-ltnpH"], text=True).splitlines()
-        listening = {line.split()[3].rpartition(":")[0] for line in sockets if f"pid={watch.pid}," in line}
+        listening = {line.split()[3].rpartition(":")[0] for line in sockets if f"pid={watches[side].pid}," in line}
         assert listening == {side.address}, "all others of the network reach what listens elsewhere"
     assert run.wait(200) == 0
     for output in told.values():
