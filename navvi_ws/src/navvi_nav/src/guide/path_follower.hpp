@@ -36,7 +36,6 @@ class PathFollower {
   [[nodiscard]] const Path& path() const { return path_; }
   /// What is left of the path: the robot, the next way-point, and on to the goal.
   [[nodiscard]] Path remaining(Point robot) const;
-  [[nodiscard]] Point next_waypoint() const { return path_[next_]; }
 
   /// Passes on to the next way-point where the robot is near enough and the straight way to the
   /// one after has easy_radius of room, or sight_radius, or what the leg has, once it is `close`; a

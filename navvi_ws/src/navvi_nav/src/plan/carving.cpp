@@ -21,10 +21,6 @@ double shared_area(double d, double r, double s) {
   return r * r * (a - std::sin(2 * a) / 2) + s * s * (b - std::sin(2 * b) / 2);
 }
 
-bool same_hole(const Cylinder& a, const Cylinder& b) {
-  return a.center == b.center && a.radius == b.radius;
-}
-
 }  // namespace
 
 int Carving::carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders) {
@@ -33,23 +29,16 @@ int Carving::carve(mesh::CutMesh& mesh, const std::vector<Cylinder>& cylinders) 
   if (!std::is_sorted(next_.begin(), next_.end(), by_id))
     std::stable_sort(next_.begin(), next_.end(), by_id);
   pair_up();
-  bool any = false;
-  for (const Pair& pair : pairs_) {
-    if (pair.before >= 0 && pair.after >= 0) {
-      const Cylinder& before = carved_[slot(pair.before)];
-      Cylinder& after = next_[slot(pair.after)];
-      if (before.radius == after.radius && distance(before.center, after.center) < rules_.moved)
-        after.center = before.center;
-      any = any || !same_hole(before, after);
-    } else {
-      any = true;
-    }
-  }
-  if (!any || !changed_enough()) return 0;
+  const auto keeps_hole = [this](const Pair& pair) {
+    if (pair.before < 0 || pair.after < 0) return false;
+    const Cylinder& before = carved_[slot(pair.before)];
+    const Cylinder& after = next_[slot(pair.after)];
+    return before.center == after.center && before.radius == after.radius;
+  };
+  if (std::all_of(pairs_.begin(), pairs_.end(), keeps_hole) || !changed_enough()) return 0;
   next_holes_.resize(next_.size());
   for (const Pair& pair : pairs_) {
-    if (pair.before >= 0 && pair.after >= 0 &&
-        same_hole(carved_[slot(pair.before)], next_[slot(pair.after)])) {
+    if (keeps_hole(pair)) {
       next_holes_[slot(pair.after)] = holes_[slot(pair.before)];
       continue;
     }

@@ -10,7 +10,6 @@ namespace navvi_nav::plan {
 /// When a moving thing's hole follows it (R-NAV-5).
 struct CarvingRules {
   double room = 0.35;    ///< m, of a hole beyond the cylinder's radius
-  double moved = 0.0;    ///< m, a cylinder that moved less keeps its hole
   double changed = 0.0;  ///< fraction of the carved area that must have changed at all
 };
 

@@ -34,8 +34,6 @@ void NavMeshConfig::describe(navvi_config::Visitor& visit) {
   visit(max_edge, "max_edge", Range{0.0, 100.0}, "m",
         "longer edges along walls are split; 0: never");
   visit(polygon_corners, "polygon_corners", Range{3.0, 12.0}, "", "most corners of a polygon");
-  visit(carve_moved, "carve_moved", Range{0.0, 1.0}, "m",
-        "an obstacle that moved less keeps its hole");
   visit(carve_changed, "carve_changed", Range{0.0, 1.0}, "",
         "fraction of the carved area that must have changed before holes follow (R-NAV-5)");
   visit(zones, "zones", navvi_config::Any{}, "",

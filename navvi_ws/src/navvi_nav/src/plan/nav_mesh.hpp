@@ -34,7 +34,6 @@ struct NavMeshConfig {
   double max_edge = 0.0;
   int polygon_corners = 12;
   int threads = 2;  ///< that share the work on a new map
-  double carve_moved = 0.0;
   double carve_changed = 0.0;
   std::string zones;  ///< their file; empty: none
 
@@ -65,7 +64,7 @@ class NavMesh {
       : config_(config),
         clearance_(clearance),
         zones_(config.zones),
-        carving_({config.robot_radius, config.carve_moved, config.carve_changed}) {}
+        carving_({config.robot_radius, config.carve_changed}) {}
 
   /// Takes a new map, or refuses it in a sentence and keeps the last one. Tiles in which nothing
   /// changed keep their polygons.
@@ -92,9 +91,8 @@ class NavMesh {
   }
   /// The rest of it.
   MeshUpdate take(bake::BakedMap baked);
-  /// Makes the holes those of `cylinders`: the hole of one whose id is gone heals. One that moved
-  /// less than `carve_moved` keeps its hole. Nothing happens while less than the fraction
-  /// `carve_changed` of the carved area changed (R-NAV-5).
+  /// Makes the holes those of `cylinders`: the hole of one whose id is gone heals. Nothing happens
+  /// while less than the fraction `carve_changed` of the carved area changed (R-NAV-5).
   MeshUpdate carve(const std::vector<Cylinder>& cylinders);
 
   [[nodiscard]] bool empty() const { return !floor_ || floor_->empty(); }

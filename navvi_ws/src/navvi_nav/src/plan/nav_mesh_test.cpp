@@ -90,11 +90,9 @@ TEST(NavMesh, joins_its_tiles_without_gaps) {
 TEST(NavMesh, cuts_only_when_a_cylinder_came_moved_or_went) {
   SmallWorld world;
   world.room(32, 24);
-  NavMeshConfig config;
-  config.carve_moved = 0.1;
-  NavMesh mesh = mesh_of(world, config);
+  NavMesh mesh = mesh_of(world);
   EXPECT_GT(mesh.carve({{1, {4, 4}, 0.3, {}}}).polygons_cut, 0);
-  EXPECT_EQ(mesh.carve({{1, {4.05, 4}, 0.3, {}}}).polygons_cut, 0);  // hardly moved
+  EXPECT_EQ(mesh.carve({{1, {4, 4}, 0.3, {1, 0}}}).polygons_cut, 0);  // it is about to move
   EXPECT_GT(mesh.carve({{1, {12, 4}, 0.3, {}}}).polygons_cut, 0);
   EXPECT_GT(mesh.carve({}).polygons_cut, 0);
   EXPECT_EQ(mesh.carve({}).polygons_cut, 0);
@@ -105,7 +103,6 @@ TEST(NavMesh, waits_until_enough_of_the_carved_area_changed) {
   world.room(16, 8);
   NavMeshConfig config;
   config.carve_changed = 0.5;
-  config.carve_moved = 0.0;
   NavMesh mesh = mesh_of(world, config);
   EXPECT_GT(mesh.carve({{1, {4, 4}, 0.5, {}}}).polygons_cut, 0);
   EXPECT_EQ(mesh.carve({{1, {4.1, 4}, 0.5, {}}}).polygons_cut, 0);

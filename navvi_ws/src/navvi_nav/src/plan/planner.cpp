@@ -94,9 +94,8 @@ PlanAnswer Planner::answer(const PlanRequest& request, bake::BakedMap baked) {
     out.map_error = out.mesh.error;
     out.map_taken = request.brings_map() && out.map_error.empty();
     uncarved_ = joined(request.obstacles, request.predicted);
-    // Holes that wait until things have moved enough must see each move; others, the last.
-    const bool waits = config_.mesh.carve_changed > 0.0 || config_.mesh.carve_moved > 0.0;
-    if (request.show_mesh || waits) carve_latest();
+    // Holes that wait until enough has changed must see each move; others, the last.
+    if (request.show_mesh || config_.mesh.carve_changed > 0.0) carve_latest();
     if (request.goal) out.plan = best_plan(request);
   } catch (const std::exception& error) {
     if (request.brings_map()) out.map_error = error.what();

@@ -38,8 +38,8 @@ class Planner {
   /// Takes the map, carves the obstacles, searches a path and smooths it. A path that only
   /// obstacles close is returned as closed, or as a retreat if the request names a swept area and
   /// there is room outside of it. Obstacles of a request without a goal, that shows nothing either,
-  /// are carved when a later one needs the mesh, unless small moves are let pass (`carve_moved`,
-  /// `carve_changed`). No exception leaves it.
+  /// are carved when a later one needs the mesh, unless small changes are let pass
+  /// (`carve_changed`). No exception leaves it.
   [[nodiscard]] PlanAnswer answer(const PlanRequest& request) {
     return answer(request, bake(request));
   }
