@@ -36,7 +36,9 @@ inline MovingThing moving_thing(const Cylinder& one, double yaw = 0.0, double le
 class Lockstep : public testing::Test {
  protected:
   Lockstep() : Lockstep(16, 10) { world_.box(6, 3, 0, 9, 7, 1.0); }
-  Lockstep(double width, double depth) { world_.room(width, depth); }
+  Lockstep(double width, double depth, const NavigatorConfig& config = {}) : config_(config) {
+    world_.room(width, depth);
+  }
 
   void load() {
     navigator_.set_map(message_of(world_));

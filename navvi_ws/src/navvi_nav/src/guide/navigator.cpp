@@ -7,6 +7,8 @@ constexpr double kWayAhead = 3.0;   // m, that must be free of obstacles to keep
 constexpr double kNearer = 1.0;     // m, a way toward what is not seen leads nearer by so much
 constexpr double kLook = 4.0;       // s, at the end of it, for a map that shows more
 constexpr double kLongLook = 12.0;  // s, likewise while such a map is being baked
+// m, beyond the robot's radius, of the straight way on past a corner
+constexpr double kSightRoom = 0.05, kEasyRoom = 0.25;
 
 std::optional<double> age_of(std::optional<double> then, double now) {
   if (!then) return std::nullopt;
@@ -17,12 +19,16 @@ bool leads_nearer(const Path& path, Point goal) {
   return distance(path.front(), goal) - distance(path.back(), goal) >= kNearer;
 }
 
-/// Copies the values that several classes need.
+/// Copies the robot's radius to all that depends on it.
 NavigatorConfig completed(NavigatorConfig config) {
   const double radius = config.planner.mesh.robot_radius;
   config.replan.trigger.robot_radius = radius;
   config.replan.forecast.robot_radius = radius;
   config.deadlock.robot_radius = radius;
+  double& sight = config.path.guidance.sight_radius;
+  double& easy = config.path.guidance.easy_radius;
+  if (sight > 0.0) sight = std::max(sight, radius + kSightRoom);
+  if (easy > 0.0) easy = std::max(easy, radius + kEasyRoom);
   return config;
 }
 

@@ -120,6 +120,31 @@ TEST_F(Lockstep, leads_around_the_block_and_arrives) {
   EXPECT_EQ(status().state, Guidance::State::arrived);
 }
 
+/// A robot of 0.6 m radius in two aisles of 1.3 m about a corner.
+class WideRobot : public Lockstep {
+ protected:
+  WideRobot() : Lockstep(10, 10, of_radius(0.6)) {
+    world_.box(0.1, 1.4, 0, 8.6, 9.9, 1.0);
+    robot_.position = {1.5, 0.75};
+  }
+  static NavigatorConfig of_radius(double radius) {
+    NavigatorConfig config;
+    config.planner.mesh.robot_radius = radius;
+    return config;
+  }
+};
+
+TEST_F(WideRobot, is_led_round_a_corner_and_not_into_it) {
+  lead({9.25, 8});
+  double least = 1e9;
+  for (int i = 0; i < 1000 && status().state == Guidance::State::following; ++i) {
+    drive(0.05);
+    least = std::min(least, planner_.nav_mesh().space().clearance(robot_.position));
+  }
+  EXPECT_EQ(status().state, Guidance::State::arrived);
+  EXPECT_GE(least, 0.55);
+}
+
 TEST_F(Lockstep, T4_arrives_only_where_odometry_agrees) {
   lead({14, 5});
   navigator_.set_odometry_place(Eigen::Vector2d(2.0, 5.0));

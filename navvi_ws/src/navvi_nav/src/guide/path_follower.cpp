@@ -30,9 +30,10 @@ void PathFollowerConfig::describe(navvi_config::Visitor& visit) {
   visit(goal_reached, "goal_reached", Range{0.1, 5.0}, "m",
         "the goal counts as reached (R-NAV-11)");
   visit(sight_radius, "sight_radius", Range{0.0, 1.0}, "m",
-        "room that the straight way to a way-point must have before the one before is given up");
+        "room that the straight way to a way-point must have before the one before is given up; "
+        "at least 0.05 m more than mesh/robot_radius; 0: none");
   visit(easy_radius, "easy_radius", Range{0.0, 2.0}, "m",
-        "the same while the robot is not yet close");
+        "the same while the robot is not yet close; at least 0.25 m more; 0: none");
   visit(one_turn, "one_turn", Range{0.0, 5.0}, "m",
         "corners nearer than this to the one before are announced as one turn with it, and bends "
         "below 15 degrees not at all; 0: each corner is");
