@@ -344,11 +344,11 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
       follow_progress(time);
       return;
     case plan::PlanStatus::refused:
-      // A goal that was accepted is not refused later on because of where the robot strayed.
-      if (reason == Guidance::Replan::new_goal || reason == Guidance::Replan::map_changed) {
-        refuse_place(plan.refusal, plan.detail, time);
-        return;
-      }
+      // A goal that was accepted is not refused later on because of where the robot strayed, or of
+      // one map; but one that was not seen may turn out to be none.
+      if (reason == Guidance::Replan::new_goal ||
+          (reason == Guidance::Replan::map_changed && path_.ends_short()))
+        return refuse_place(plan.refusal, plan.detail, time);
       guidance_.state = Guidance::State::no_route;
       break;
     case plan::PlanStatus::no_map:

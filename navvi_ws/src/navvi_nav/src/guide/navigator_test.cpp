@@ -337,6 +337,20 @@ TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
   EXPECT_EQ(status().state, Guidance::State::off_mesh);
 }
 
+TEST_F(Lockstep, keeps_a_goal_that_one_map_parts_from_the_robot) {
+  lead({14, 5});
+  ASSERT_EQ(status().state, Guidance::State::following);
+  SmallWorld parted;
+  parted.room(16, 10).box(6, 0, 0, 9, 10, 1.0);
+  navigator_.set_map(message_of(parted));
+  tick(60);
+  EXPECT_EQ(status().state, Guidance::State::no_route);
+  EXPECT_TRUE(navigator_.path().empty());
+  load();
+  tick(2);
+  EXPECT_EQ(status().state, Guidance::State::following);
+}
+
 TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   load();
   navigator_.set_goal({14, 5});
