@@ -159,10 +159,17 @@ std::optional<plan::PlanRequest> Navigator::update(double time) {
     request.grid = std::exchange(map_.new_grid, nullptr);
     return request;
   }
-  if (sent_.since) return std::nullopt;
-  if (const std::optional<Guidance::Replan> reason = decide_replan(time, now)) {
+  const std::optional<Point> robot =
+      map_.floor && goal_.place ? position_of(pose(time)) : std::nullopt;
+  if (robot) conflict_ = now;
+  const bool kept = robot && keeper_.update(time, now);
+  if (sent_.since) {
+    if (robot) give_up_late_plan(time, kept);
+    return std::nullopt;
+  }
+  if (const auto reason = robot ? decide_replan(time, *robot, kept) : std::nullopt) {
     plan::PlanRequest request = send(time, *reason);
-    ask_for_path(request, to_point(pose(time)->position));
+    ask_for_path(request, *robot);
     return request;
   }
   const bool carve = map_.floor && (!sent_.carved || time - *sent_.carved >= config_.carve_period);
@@ -192,7 +199,6 @@ Conflict Navigator::follow_progress(double time) {
   if (path_.follower().cut_off(ahead, *map_.floor)) cut_off_ = cut_off.value_or(time);
   end_retreat(time, *robot);
   end_path(time, *robot);
-  give_up_late_plan(time);
   const Conflict now = forecast(path_.remaining(*robot));
   if (path_.following()) watch_deadlock(time, *robot, now);
   return now;
@@ -223,13 +229,15 @@ void Navigator::end_retreat(double time, Point robot) {
   deadlock_.retreated(time);
 }
 
-void Navigator::give_up_late_plan(double time) {
+/// A path must change, too, that has been cut since a plan was asked for, whatever for.
+void Navigator::give_up_late_plan(double time, bool kept) {
+  const bool cut =
+      conflict_.waypoint_taken || (conflict_.cut && conflict_.cut->at <= kWayAhead);
   const bool must_change = sent_.reason == Guidance::Replan::path_carved ||
                            sent_.reason == Guidance::Replan::waypoint_blocked ||
-                           sent_.reason == Guidance::Replan::map_changed;
-  if (!path_.following() || !sent_.since || !must_change ||
-      time - *sent_.since <= config_.kPlanTimeout)
-    return;
+                           sent_.reason == Guidance::Replan::map_changed || cut_off_ ||
+                           (cut && !kept && !path_.closed());
+  if (!path_.following() || !must_change || time - *sent_.since <= config_.kPlanTimeout) return;
   path_.drop();
   guidance_.state = Guidance::State::no_route;
   guidance_.detail = "no plan came in time";
@@ -248,24 +256,21 @@ void Navigator::watch_deadlock(double time, Point robot, const Conflict& now) {
   deadlock_.update(time, robot, blocker_ ? observation_.thing(blocker_->by) : std::nullopt);
 }
 
-std::optional<Guidance::Replan> Navigator::decide_replan(double time, const Conflict& now) {
-  const std::optional<Point> robot = position_of(pose(time));
-  if (!map_.floor || !goal_.place || !robot) return std::nullopt;
-  conflict_ = now;
+std::optional<Guidance::Replan> Navigator::decide_replan(double time, Point robot, bool kept) {
   ReplanInput input;
   input.time = time;
   input.new_goal = !goal_.planned;
   input.map_changed = map_.changed;
   input.cut_off = cut_off_.has_value();
   input.speed = observation_.speed();
-  input.robot = *robot;
-  input.remaining = path_.remaining(*robot);
-  input.path_offset = path_.offset(*robot);
+  input.robot = robot;
+  input.remaining = path_.remaining(robot);
+  input.path_offset = path_.offset(robot);
   input.closed = path_.closed();
   input.obstacles = observation_.obstacles();
-  input.conflict = now;
-  input.kept = keeper_.update(time, now);
-  input.evades = keeper_.evades(now);
+  input.conflict = conflict_;
+  input.kept = kept;
+  input.evades = keeper_.evades(conflict_);
   input.worthwhile = keeper_.worthwhile(length_of(input.remaining));
   return trigger_.update(input);
 }

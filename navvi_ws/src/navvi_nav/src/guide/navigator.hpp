@@ -141,9 +141,9 @@ class Navigator {
   Conflict follow_progress(double time);
   void end_retreat(double time, Point robot);
   void end_path(double time, Point robot);
-  void give_up_late_plan(double time);
+  void give_up_late_plan(double time, bool kept);
   void watch_deadlock(double time, Point robot, const Conflict& now);
-  [[nodiscard]] std::optional<Guidance::Replan> decide_replan(double time, const Conflict& now);
+  [[nodiscard]] std::optional<Guidance::Replan> decide_replan(double time, Point robot, bool kept);
   [[nodiscard]] std::vector<Cylinder> holes() const;
   [[nodiscard]] plan::PlanRequest send(double time, Guidance::Replan reason);
   void ask_for_path(plan::PlanRequest& request, Point robot);
@@ -170,7 +170,7 @@ class Navigator {
   SecondAsk second_ask_;
   std::optional<double> cut_off_;  ///< s, since when something stands between robot and path
   Sent sent_;
-  Conflict conflict_;               ///< as of the last tick on which a replan was decided
+  Conflict conflict_;               ///< as of the last tick with a goal and a place
   std::optional<Blocker> blocker_;  ///< of the only path, if near
   Guidance guidance_;               ///< without the values that change with time
 };

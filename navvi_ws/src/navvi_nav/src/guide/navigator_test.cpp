@@ -216,6 +216,39 @@ TEST_F(Lockstep, N2_hides_a_path_that_must_change_when_no_plan_came_in_time) {
   EXPECT_EQ(status().state, Guidance::State::following) << "late, but there";
 }
 
+TEST_F(Lockstep, N2_tells_to_wait_for_what_crosses_while_the_planner_is_at_work) {
+  lead({14, 5});
+  std::optional<plan::PlanRequest> asked;
+  while (!asked) asked = ask();
+  ASSERT_FALSE(asked->goal) << "it learns what moves";
+  const Point start = navigator_.path()[0];
+  const Point leg = navigator_.path()[1] - start;
+  const Point ahead = (1.0 / norm(leg)) * leg;
+  const Point aside{-ahead.y, ahead.x};
+  obstacles_ = {{1, start + 2.4 * ahead + 1.8 * aside, 0.4, -0.5 * aside}};
+  for (int i = 0; i < 2; ++i) ASSERT_FALSE(ask());
+  EXPECT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().blocked_by, class_of(1));
+}
+
+TEST_F(Lockstep, N2_hides_a_path_that_is_cut_while_the_planner_is_at_work_on_something_else) {
+  lead({14, 5});
+  std::optional<plan::PlanRequest> asked;
+  while (!asked) asked = ask();
+  ASSERT_FALSE(asked->goal);
+  for (int i = 0; i < 30; ++i) ASSERT_FALSE(ask());
+  EXPECT_EQ(status().state, Guidance::State::following) << "the path is free";
+  const Point start = navigator_.path()[0];
+  const Point leg = navigator_.path()[1] - start;
+  obstacles_ = {{1, start + (2.0 / norm(leg)) * leg, 0.4, {}}};
+  ASSERT_FALSE(ask());
+  EXPECT_EQ(status().state, Guidance::State::no_route);
+  EXPECT_EQ(status().detail, "no plan came in time");
+  navigator_.deliver(planner_.answer(*asked), time_);
+  tick(50);
+  EXPECT_EQ(status().state, Guidance::State::following) << "round it";
+}
+
 TEST_F(Lockstep, does_not_change_a_free_path_every_period) {
   lead({14, 5});
   const Path before = navigator_.path();
