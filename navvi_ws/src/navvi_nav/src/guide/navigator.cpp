@@ -110,6 +110,7 @@ void Navigator::drop_goal(Guidance::State state) {
   deadlock_.reset();
   conflict_ = {};
   blocker_.reset();
+  held_.reset();
   guidance_.state = state;
   guidance_.refusal = Guidance::Refusal::none;
   guidance_.detail.clear();
@@ -147,6 +148,7 @@ bool Navigator::undecided(double time) const {
 }
 
 std::optional<plan::PlanRequest> Navigator::update(double time) {
+  held_ = waits_for();
   observation_.update(time);
   const Conflict now = follow_progress(time);
   if (map_.new_map && !map_.stands_at && pose(time)) map_.stands_at = height_;
@@ -231,8 +233,7 @@ void Navigator::end_retreat(double time, Point robot) {
 
 /// A path must change, too, that has been cut since a plan was asked for, whatever for.
 void Navigator::give_up_late_plan(double time, bool kept) {
-  const bool cut =
-      conflict_.waypoint_taken || (conflict_.cut && conflict_.cut->at <= kWayAhead);
+  const bool cut = conflict_.waypoint_taken || (conflict_.cut && conflict_.cut->at <= kWayAhead);
   const bool must_change = sent_.reason == Guidance::Replan::path_carved ||
                            sent_.reason == Guidance::Replan::waypoint_blocked ||
                            sent_.reason == Guidance::Replan::map_changed || cut_off_ ||
@@ -431,6 +432,13 @@ Guidance Navigator::guidance(double time) const {
   return out;
 }
 
+/// What was waited for when obstacles were lost may still be there.
+std::optional<Blocker> Navigator::waits_for() const {
+  if (held_ && observation_.obstacles_lost()) return Blocker{held_->by, held_->at, std::nullopt};
+  if (path_.mode() == PathMode::waiting) return Blocker{*deadlock_.yields_to(), 0.0, std::nullopt};
+  return blocker_ ? blocker_ : keeper_.waits_for();
+}
+
 void Navigator::report_path(Guidance& out) const {
   const std::optional<Pose2>& robot = observation_.last_pose();
   if (!path_.following() || !robot) {
@@ -438,9 +446,7 @@ void Navigator::report_path(Guidance& out) const {
     return;
   }
   path_.report(out, *robot, *map_.floor, observation_.pace());
-  std::optional<Blocker> blocked = blocker_ ? blocker_ : keeper_.waits_for();
-  if (path_.mode() == PathMode::waiting)
-    blocked = Blocker{*deadlock_.yields_to(), 0.0, std::nullopt};
+  std::optional<Blocker> blocked = waits_for();
   if (blocked) {
     out.state = Guidance::State::blocked;
   } else if (path_.mode() == PathMode::retreat) {

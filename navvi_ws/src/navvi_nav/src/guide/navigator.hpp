@@ -153,6 +153,7 @@ class Navigator {
   void drop_goal(Guidance::State state);
   void refuse_goal(Guidance::Refusal refusal, const std::string& detail);
   void refuse_place(Guidance::Refusal refusal, const std::string& detail, double time);
+  [[nodiscard]] std::optional<Blocker> waits_for() const;
   void report_path(Guidance& out) const;
 
   NavigatorConfig config_;
@@ -172,6 +173,7 @@ class Navigator {
   Sent sent_;
   Conflict conflict_;               ///< as of the last tick with a goal and a place
   std::optional<Blocker> blocker_;  ///< of the only path, if near
+  std::optional<Blocker> held_;     ///< what was waited for before this tick
   Guidance guidance_;               ///< without the values that change with time
 };
 

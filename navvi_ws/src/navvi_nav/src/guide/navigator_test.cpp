@@ -362,6 +362,24 @@ TEST_F(Lockstep, names_what_stands_on_the_goal) {
   EXPECT_EQ(status().state, Guidance::State::following);
 }
 
+TEST_F(Lockstep, waits_on_for_what_stood_there_when_obstacles_were_lost) {
+  load();
+  obstacles_ = {{5, {14, 5}, 0.6, {}}};
+  robot_.position = {11.5, 5};
+  navigator_.set_goal({14, 5});
+  tick(2);
+  ASSERT_EQ(status().state, Guidance::State::blocked);
+  has_obstacles_ = false;
+  tick(60);
+  ASSERT_TRUE(navigator_.obstacles_lost());
+  EXPECT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().blocked_by, class_of(5));
+  obstacles_.clear();
+  has_obstacles_ = true;
+  tick(50);
+  EXPECT_EQ(status().state, Guidance::State::following);
+}
+
 TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
   lead({14, 5});
   ASSERT_EQ(status().state, Guidance::State::following);

@@ -56,7 +56,6 @@ std::optional<Pose2> Observation::foreseen() const {
 
 void Observation::update(double time) {
   if (obstacles_time_ && !obstacles_fresh(time)) {
-    things_.clear();
     obstacles_.clear();
     obstacles_lost_ = true;
   }

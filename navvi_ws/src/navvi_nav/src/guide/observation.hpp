@@ -52,6 +52,7 @@ class Observation {
   /// m/s, > 0: mean forward speed over the times when the robot moved.
   [[nodiscard]] double pace() const { return pace_; }
   [[nodiscard]] const std::vector<Cylinder>& obstacles() const { return obstacles_; }
+  /// As it was told last.
   [[nodiscard]] std::optional<MovingThing> thing(std::optional<std::uint32_t> id) const;
   [[nodiscard]] bool obstacles_fresh(double time) const;
   /// True if the obstacles were dropped as too old; cleared by the next ones.
