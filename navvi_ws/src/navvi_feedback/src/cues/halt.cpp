@@ -94,7 +94,8 @@ bool Halt::over(const Observation& now, bool follows, bool comes, double time) {
   if (!awaits || !follows) led_since_.reset();
   if (awaits && follows && !led_since_) led_since_ = time;
   const bool long_led = led_since_ && time - std::max(said_, *led_since_) > kLongest;
-  const bool may_go = led_since_ && ((clear(now) && !comes) || long_led);
+  const bool blind = now.links.proximity == Link::lost;
+  const bool may_go = led_since_ && !blind && ((clear(now) && !comes) || long_led);
   if (!may_go) clear_since_.reset();
   if (may_go && !clear_since_) clear_since_ = time;
   return may_go && time - last_ >= (halted() ? kObeyed : again_) && time - *clear_since_ >= kClear;
