@@ -83,6 +83,7 @@ void ActivePath::report(Guidance& out, const Pose2& robot, const map::Floor& flo
   follower_.report(out, robot, floor);
   out.ends_short = ends_short_;
   if (!leads_to_goal_ || ends_short_) out.waypoint_is_goal = false;
+  if (!leads_to_goal_) out.goal_distance += distance(follower_.path().back(), to_point(out.goal));
   out.eta = out.goal_distance / pace;
   out.shortest_length = shortest_length_;
 }

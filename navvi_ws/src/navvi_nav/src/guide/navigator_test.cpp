@@ -541,6 +541,7 @@ TEST_F(Guided, retreats_from_what_it_faces_waits_there_and_arrives_nowhere) {
   EXPECT_EQ(status().state, Guidance::State::make_room);
   EXPECT_EQ(status().blocked_by, class_of(7));
   EXPECT_FALSE(status().waypoint_is_goal);
+  EXPECT_NEAR(status().goal_distance, 2.0 + std::hypot(12.0, 2.0), 1e-9) << "and not 2 m";
   robot_.position = {2, 5.75};
   finds(plan::PlanStatus::retreat, path, 1.0);
   EXPECT_EQ(status().state, Guidance::State::make_room);

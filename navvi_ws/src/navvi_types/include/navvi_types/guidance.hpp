@@ -70,7 +70,7 @@ struct Guidance {
   double waypoint_angle = 0.0;     ///< from the robot's heading to the way-point
   double steer_angle = 0.0;        ///< where to steer: likewise, to the path a little ahead
   double turn_angle = 0.0;         ///< change of course at the way-point; 0 at the goal
-  double goal_distance = 0.0;      ///< m, along the path, to its end
+  double goal_distance = 0.0;      ///< m, to the end of the path; if that is aside, on to the goal
   double eta = 0.0;                ///< s, for what is left, >= 0
   double shortest_length = 0.0;    ///< m, of the shortest path when this one was planned
   double path_offset = 0.0;        ///< m, from the robot to the nearest point of the path
