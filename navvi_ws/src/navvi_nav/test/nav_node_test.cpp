@@ -10,6 +10,7 @@
 #include <nav_msgs/Path.h>
 #include <navvi_msgs/Guidance.h>
 #include <navvi_msgs/Obstacles.h>
+#include <navvi_msgs/Zone.h>
 #include <octomap_msgs/Octomap.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -298,6 +299,24 @@ TEST_F(NavNodeTest, takes_a_full_map_on_the_same_topic) {
            std::all_of(path_.poses.begin(), path_.poses.end(),
                        [](const auto& pose) { return pose.pose.position.y < 6.5; });
   }));
+}
+
+TEST_F(NavNodeTest, T4_tells_what_zones_allow_of_each_pose_once) {
+  int told = 0;
+  const ros::Subscriber reader = node_.subscribe<navvi_msgs::Zone>(
+      "navvi/zone", 10, [&](const navvi_msgs::Zone::ConstPtr&) { ++told; });
+  EXPECT_TRUE(until([&] { return told > 10; }));
+  poses_ = false;
+  const auto told_for = [&](double seconds) {
+    const int before = told;
+    const ros::WallTime begun = ros::WallTime::now();
+    until([&] { return (ros::WallTime::now() - begun).toSec() > seconds; });
+    return told - before;
+  };
+  told_for(0.2);  // what is on its way
+  EXPECT_EQ(told_for(0.5), 0) << "of a pose that is still taken for fresh";
+  poses_ = true;
+  EXPECT_TRUE(until([&, before = told] { return told > before + 5; }));
 }
 
 TEST_F(NavNodeTest, T4_one_transform_from_the_future_is_no_pose_and_keeps_out_none_that_follow) {

@@ -231,9 +231,9 @@ class NavNode {
   void read_pose(const ros::Time& now) {
     const auto found = navvi_types::newest(buffer_, config_.map_frame, config_.base_frame, now);
     const auto pose = found ? navvi_types::from_msg(found->transform) : std::nullopt;
-    if (pose)
-      (void)navigator_.set_pose(*pose, found->transform.translation.z,
-                                found->header.stamp.toSec(), now.toSec());
+    const double stamp = found ? found->header.stamp.toSec() : 0.0;
+    if (pose && navigator_.set_pose(*pose, found->transform.translation.z, stamp, now.toSec()))
+      posed_ = stamp;
   }
 
   void on_odometry(const nav_msgs::Odometry& msg) {
@@ -280,7 +280,9 @@ class NavNode {
 
   void publish_all() {
     const double now = ros::Time::now().toSec();
-    if (std::optional<navvi_types::ZoneState> zone = navigator_.zone(now)) {
+    std::optional<navvi_types::ZoneState> zone = navigator_.zone(now);
+    // Of each pose once: the gate must see where none comes any more.
+    if (zone && std::exchange(zoned_, posed_) != posed_) {
       zone->stamp = navvi_types::to_ns(ros::Time::now());
       navvi_msgs::Zone msg = navvi_types::to_msg(*zone);
       msg.header.frame_id = config_.map_frame;
@@ -342,6 +344,7 @@ class NavNode {
   guide::PublishThrottle throttle_;
   guide::MeshThrottle mesh_throttle_;
   double last_time_ = 0.0;
+  double posed_ = 0.0, zoned_ = 0.0;  ///< s, stamp of the last pose, and of that of the last zone
   std::uint32_t seq_ = 0;
   unsigned bad_goals_ = 0;
 };
