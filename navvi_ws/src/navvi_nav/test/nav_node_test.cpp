@@ -72,6 +72,7 @@ class NavNodeTest : public testing::Test {
     odometry.twist.twist.linear.x = 0.5;
     odometry_.publish(odometry);
     if (moves_) moves_();
+    played_.header.stamp = transform.header.stamp - ros::Duration(obstacles_age_);
     obstacles_.publish(played_);
   }
 
@@ -134,6 +135,7 @@ class NavNodeTest : public testing::Test {
   tf2_ros::TransformBroadcaster broadcaster_;
   navvi_msgs::Obstacles played_;
   std::function<void()> moves_;  ///< brings played_ up to date
+  double obstacles_age_ = 0.0;   ///< s
   bool poses_ = true;            ///< the robot tells its place
   double pose_x_ = 2.0;          ///< m, by transforms
   double odometry_x_ = 2.0;      ///< m, by odometry
@@ -430,6 +432,17 @@ TEST_F(NavNodeTest, N6_more_obstacles_than_a_message_may_hold_are_announced) {
   played_.obstacles.clear();
   EXPECT_TRUE(until(
       [this] { return guidance_.detail.find("the obstacles are rejected") == std::string::npos; }));
+}
+
+TEST_F(NavNodeTest, drops_obstacles_of_another_time_and_announces_that_none_come) {
+  ASSERT_TRUE(lead());
+  const auto missing = [this] { return guidance_.detail.find("no fresh obstacles") == 0; };
+  for (const double age : {5.0, -1.0}) {
+    EXPECT_TRUE(until([&] { return !missing(); })) << age;
+    obstacles_age_ = age;
+    EXPECT_TRUE(until(missing)) << age;
+    obstacles_age_ = 0.0;
+  }
 }
 
 TEST_F(NavNodeTest, takes_its_goal_as_an_action_as_move_base_does) {

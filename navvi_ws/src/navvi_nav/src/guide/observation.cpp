@@ -7,7 +7,6 @@ namespace navvi_nav::guide {
 
 constexpr double kMoving = 0.1;     // m/s
 constexpr double kMemory = 10.0;    // s, time constant of the pace
-constexpr double kMostAhead = 0.3;  // s, of a pose; clocks and messages differ by less
 
 void ObservationConfig::describe(navvi_config::Visitor& visit) {
   visit(most_cylinders, "most_cylinders", navvi_config::Range{1.0, 4.0}, "",
@@ -39,7 +38,7 @@ void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
 }
 
 bool Observation::set_pose(const Pose2& pose, double stamp, double now) {
-  if (stamp - now > kMostAhead) return false;
+  if (stamp - now > config_.kMostAhead) return false;
   pose_ = pose;
   pose_time_ = stamp;
   return true;

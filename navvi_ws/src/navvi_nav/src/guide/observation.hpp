@@ -13,6 +13,7 @@ struct ObservationConfig {
   /// s, an older pose or velocity of the robot is stale
   static constexpr double kPoseTimeout = 1.0;
   static constexpr double kObstacleTimeout = 1.0;  ///< s, older obstacles are forgotten
+  static constexpr double kMostAhead = 0.3;  ///< s, of a stamp; clocks and messages differ by less
 
   void describe(navvi_config::Visitor& visit);
 };

@@ -91,7 +91,7 @@ class NavNode {
         navvi_types::subscribe<navvi_msgs::Obstacles>(
             node, "navvi/obstacles", 1, navvi_types::from_msg,
             [this](const navvi_types::Obstacles& obstacles) {
-              navigator_.set_obstacles(obstacles.things, ros::Time::now().toSec());
+              take(obstacles, ros::Time::now().toSec());
               beat();
             },
             config.map_frame, [this](const std::string&) { navigator_.reject_obstacles(); }),
@@ -144,6 +144,15 @@ class NavNode {
       ROS_ERROR("The map is refused: %s.", error.c_str());
     else
       navigator_.set_map(std::make_shared<const plan::MapMessage>(from_msg(*msg)));
+  }
+
+  void take(const navvi_types::Obstacles& obstacles, double now) {
+    using Times = guide::ObservationConfig;
+    const double age = now - 1e-9 * static_cast<double>(obstacles.stamp);
+    if (age <= Times::kObstacleTimeout && age >= -Times::kMostAhead)
+      navigator_.set_obstacles(obstacles.things, now);
+    else
+      ROS_WARN_THROTTLE(5.0, "Obstacles were dropped: they are stamped %.1f s ago.", age);
   }
 
   void on_goal(const geometry_msgs::PoseStamped::ConstPtr& msg) {
