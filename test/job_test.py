@@ -1,9 +1,35 @@
 """A job: a simulated person is led from place to place, and confirms what is done at each."""
 import pytest
 
-from sessions import navvi, rows_of
+from sessions import WORLD, Programs, navvi, rows_of
 from navvi_cli import trials
 from navvi_cli.commands import run
+
+
+#: Looks at the way that RViz shows before a trial begins: of a job that waits, then as if there were none, then of the job again.
+WATCH = """
+import sys, time, rospy
+from nav_msgs.msg import Path
+from navvi_msgs.msg import TrialState
+rospy.init_node("watch")
+shown, states = [], []
+rospy.Subscriber("/navvi/preview", Path, lambda path: shown.append(len(path.poses)))
+rospy.Subscriber("/navvi/trial_state", TrialState, lambda trial: states.append(trial.state))
+
+def until(condition, seconds, what):
+    deadline = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > deadline:
+            sys.exit(f"in {seconds} s it did not come true that {what}: {shown}")
+        time.sleep(0.05)
+
+until(lambda: states and states[-1] == TrialState.READY, 200, "the job waits to begin")
+job = rospy.get_param("/trial_node/job")
+rospy.set_param("/trial_node/job", "")
+until(lambda: shown and shown[-1] > 1, 100, "the way to the world's goal is shown without a job")
+rospy.set_param("/trial_node/job", job)
+until(lambda: shown[-1] == 0, 30, "it is not shown of a job")
+"""
 
 
 def test_a_job_leads_from_place_to_place_and_ends_the_session(session, tmp_path):
@@ -30,6 +56,15 @@ def test_a_job_ends_where_a_place_takes_too_long_and_names_it(session, tmp_path)
     log = next(begun.folder.glob("session-*.log")).read_text()
     assert [rows_of(trial / "summary.csv")[0]["result"] for trial in sorted(begun.folder.glob("trial-*"))] == ["timeout"] * 2, log[-4000:]
     assert "The job is done: 2 places, not reached: packing table, bay 7." in log
+
+
+def test_no_way_to_another_goal_is_shown_while_a_job_waits(desktop, tmp_path):
+    job = tmp_path / "round.yaml"
+    job.write_text("- {name: packing table, x: 2, y: 2}\n")
+    with Programs(desktop, tmp_path / "log") as programs:
+        programs.launch("live.launch", "operator:=keyboard", f"world:={WORLD}", "seed:=3", "once:=false", "speech:=false",
+                        "feedback_parameters:={listener: topic}", f"jobs:={job}", f"out:={tmp_path}", "rviz:=true")
+        programs.person("-c", WATCH, seconds=360)
 
 
 def test_a_place_to_which_no_way_leads_is_refused_before_anything_starts(tmp_path):

@@ -69,7 +69,9 @@ void Reader::read_words() {
 
 std::optional<Eigen::Vector2d> Reader::goal_ahead() const {
   const bool led = status_.guidance() && status_.guidance()->leads();
-  return status_.trial_waits() && !led ? goal_ : std::nullopt;
+  std::string job;  // leads to its own places
+  ros::param::getCached("trial_node/job", job);
+  return status_.trial_waits() && !led && job.empty() ? goal_ : std::nullopt;
 }
 
 status::Shown Reader::shown() {
