@@ -31,11 +31,11 @@ CLASSES = bodies_of_classes()
 
 
 def exists(name):
-    """A class, a function, or a function of just this class."""
-    owner, _, function = name.rpartition("::")
+    """A class, a function, or a member of just this class."""
+    owner, _, member = name.rpartition("::")
     if not owner:
-        return bool(re.search(rf"{function}\b", CODE))
-    return f"{owner}::{function}(" in CODE or any(re.search(rf"\b{function}\(", body) for body in CLASSES.get(owner, []))
+        return bool(re.search(rf"{member}\b", CODE))
+    return f"{owner}::{member}(" in CODE or any(re.search(rf"\b{member}(\(|;| = )", body) for body in CLASSES.get(owner, []))
 
 
 def test_every_function_of_the_topic_tables_exists():
@@ -45,6 +45,12 @@ def test_every_function_of_the_topic_tables_exists():
     assert len(names) > 20
     assert sorted(name for name in names if not exists(name)) == []
     assert not exists("Planner::fly") and not exists("Outlets::diagnose")
+
+
+def test_every_member_of_a_class_that_a_document_names_exists():
+    names = {(page.name, name) for page in PAGES if page.name != "CHANGELOG.md" for name in re.findall(r"`([A-Z]\w+::\w+)`", page.read_text())}
+    assert len(names) > 60
+    assert sorted((page, name) for page, name in names if not exists(name)) == []
 
 
 def test_every_topic_of_the_table_is_named_in_the_code():
