@@ -44,13 +44,10 @@ std::int64_t twice_area(const std::vector<OutlineCorner>& outline) {
 }
 
 void grow_walls(std::vector<OutlineCorner>& outline, const TileCells& cells, int grow) {
-  const int side = cells.size + 2;
-  const auto open = [&](int x, int y) -> int {
-    return cells.open[static_cast<std::size_t>((y + 1) * side + x + 1)];
-  };
   for (OutlineCorner& corner : outline) {
     const int x = corner.x, y = corner.y;
-    const int a = open(x - 1, y - 1), b = open(x, y - 1), c = open(x - 1, y), d = open(x, y);
+    const int a = cells.is_open(x - 1, y - 1), b = cells.is_open(x, y - 1);
+    const int c = cells.is_open(x - 1, y), d = cells.is_open(x, y);
     corner.x *= map::kStepsPerCellSide;
     corner.y *= map::kStepsPerCellSide;
     const bool touch = a == d && b == c;  // all alike, or two open cells that share this point only
@@ -82,8 +79,7 @@ void fill_notches(std::vector<OutlineCorner>& outline, double error) {
       const double along = dx * (at(k).x - a.x) + dy * (at(k).y - a.y);
       if (side < 0.0 || side * side > limit || along < 0.0 || along > length2) return false;
     }
-    if (length2 == 0.0) return false;
-    return true;
+    return length2 != 0.0;
   };
   std::vector<OutlineCorner> kept;
   kept.reserve(count);

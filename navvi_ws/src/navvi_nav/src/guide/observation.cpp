@@ -54,10 +54,8 @@ std::optional<Pose2> Observation::foreseen() const {
 }
 
 void Observation::update(double time) {
-  if (obstacles_time_ && !obstacles_fresh(time)) {
-    obstacles_.clear();
-    obstacles_lost_ = true;
-  }
+  obstacles_lost_ = obstacles_time_ && !obstacles_fresh(time);
+  if (obstacles_lost_) obstacles_.clear();
   if (!velocity_time_) velocity_time_ = time;
   if (!velocity_fresh(time)) velocity_ = {};
   const double elapsed = updated_ ? std::clamp(time - *updated_, 0.0, 1.0) : 0.0;

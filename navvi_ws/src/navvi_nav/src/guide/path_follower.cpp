@@ -11,6 +11,7 @@ constexpr double kCut = 0.2;       // m, a leg with less room is cut
 constexpr double kSample = 0.1;    // m
 constexpr double kShorter = 0.8;   // of the way to steer for, at each try
 constexpr double kOnPath = 0.5;    // m, a robot nearer to a later leg has passed its start
+const std::vector<Cylinder> kNone;
 
 /// m, from the segment to the nearest thing, sampled; `most` at most.
 double least_room(Point a, Point b, const map::Space& space, double most = map::Floor::kFar) {
@@ -78,10 +79,8 @@ bool PathFollower::leaves_corner(Point robot, const map::Space& space) const {
   const Point corner = path_[next_];
   const Point after = path_[next_ + 1];
   if (sees(robot, after, space)) return true;
-  const std::vector<Cylinder> none;
-  const map::Space still{space.floor, &none};
   const bool cut = least_room(corner, after, space) < kCut;
-  const map::Space& known = cut ? still : space;
+  const map::Space known = cut ? map::Space{space.floor, &kNone} : space;
   const double room = std::min(known.clearance(robot), least_room(corner, after, known)) - kSlack;
   return room > 0.0 && known.segment_clear(robot, after, std::min(room, config_.sight_radius));
 }
@@ -118,8 +117,7 @@ Point PathFollower::steer_point(Point robot, const map::Floor& floor) const {
   const auto ahead = [&](double by) {
     return by < left ? nearest + (by / norm(leg)) * leg : path_[next_];
   };
-  const std::vector<Cylinder> none;
-  const map::Space still{&floor, &none};
+  const map::Space still{&floor, &kNone};
   const double own = still.clearance(robot, config_.sight_radius + 2.0 * kSlack);
   const auto free = [&](Point target) {
     const double room = least_room(nearest, target, still, own) - kSlack;

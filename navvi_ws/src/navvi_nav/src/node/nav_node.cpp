@@ -23,9 +23,8 @@ using navvi_types::Guidance;
 using navvi_types::Pose2;
 
 constexpr double kServicePatience = 1.0;  // s
-constexpr double kMeshPeriod =
-    0.5;                        // s, between two pictures of the mesh; a large one waits longer
-constexpr double kBeat = 0.05;  // s, where nothing wakes the node sooner
+constexpr double kMeshPeriod = 0.5;  // s, between pictures of the mesh; a large one's is longer
+constexpr double kBeat = 0.05;       // s, where nothing wakes the node sooner
 
 /// Work for the node's own thread, from any other.
 class Wake : public ros::CallbackInterface {
@@ -99,9 +98,7 @@ class NavNode {
             node, "odom", 1, checked, [this](const nav_msgs::Odometry& msg) { on_odometry(msg); }),
         navvi_types::subscribe<navvi_msgs::LinkState>(
             node, "navvi/link", 1, navvi_types::from_msg,
-            [this](const navvi_types::LinkState& link) {
-              navigator_.set_foresight(link.foresight);
-            }),
+            [this](const auto& link) { navigator_.set_foresight(link.foresight); }),
         node.subscribe("move_base_simple/goal", 10, &NavNode::on_goal, this)};
     goals_ = node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1);
     action_.emplace(

@@ -12,9 +12,8 @@ constexpr double kOnMesh = 0.02;    // m
 constexpr double kRounding = 1e-6;  // m
 constexpr double kDearer = 3.0;     // price of a metre of the leg, in metres to `towards`
 constexpr double kMoves = 0.2;      // m/s
-constexpr double kBefore =
-    0.7;  // cosine: a leg less than 45 degrees off its heading leads on in front of it
-constexpr double kLast = 1e6;  // price of such a leg: only if there is no other
+constexpr double kBefore = 0.7;     // cosine, to its heading: a leg leads on in front of it
+constexpr double kLast = 1e6;       // price of such a leg: only if there is no other
 
 bool comes_no_nearer(Point start, Point end, const Cylinder& cylinder, double radius) {
   const double now = distance(start, cylinder.center);

@@ -56,15 +56,7 @@ bool obstacle_within(const map::Floor& floor, Point point, double distance) {
 Route RouteFinder::find(Point start, Point goal) {
   if (nav_mesh_.empty()) return {no_plan(PlanStatus::no_map, "there is no map yet")};
   if (const std::optional<Plan> no = refused(start, goal)) return {*no};
-  if (!begin(start, goal, std::nullopt).place)
-    return {no_plan(PlanStatus::off_mesh, "the robot stands where no path can begin")};
-  const Anchor to = anchor(goal, near_goal(), std::nullopt);
-  if (!to.place || !to.joined)
-    return {no_plan(PlanStatus::no_route, "a moving thing stands on the goal")};
-  const Anchor from = begin(start, goal, nav_mesh_.mesh().polygon(to.place->polygon).component);
-  if (!from.place)
-    return {no_plan(PlanStatus::no_route, "nothing joins the robot with the goal now")};
-  return between(from, *to.place, start, goal);
+  return find_on_floor(start, goal, true);
 }
 
 Route RouteFinder::find_toward(Point start, Point goal, const Path& followed) {
@@ -79,7 +71,7 @@ Route RouteFinder::find_toward(Point start, Point goal, const Path& followed) {
     const bool serves = still && distance(*still, last) <= kOnFloor;
     if (serves && distance(last, goal) - distance(*end, goal) < kSameEnd) end = last;
   }
-  Route out = end ? find_end(start, *end)
+  Route out = end ? find_on_floor(start, *end, false)
                   : Route{no_plan(PlanStatus::off_mesh, "the robot stands off the floor")};
   out.plan.ends_short = true;
   out.plan.refusal = no->refusal;
@@ -87,16 +79,18 @@ Route RouteFinder::find_toward(Point start, Point goal, const Path& followed) {
   return out;
 }
 
-/// To a place on the floor.
-Route RouteFinder::find_end(Point start, Point end) {
+/// \param exactly  to the goal; else to what of the mesh is nearest to the place where the map ends
+Route RouteFinder::find_on_floor(Point start, Point end, bool exactly) {
   if (!begin(start, end, std::nullopt).place)
     return {no_plan(PlanStatus::off_mesh, "the robot stands where no path can begin")};
-  const std::optional<mesh::Mesh::Place> to = nav_mesh_.mesh().locate(end, near_goal());
-  if (!to) return {no_plan(PlanStatus::no_route, "a moving thing stands where the map ends")};
-  const Anchor from = begin(start, end, nav_mesh_.mesh().polygon(to->polygon).component);
+  const std::string what = exactly ? "the goal" : "the end of the map";
+  const Anchor to = anchor(end, near_goal(), std::nullopt);
+  if (!to.place || (exactly && !to.joined))
+    return {no_plan(PlanStatus::no_route, "a moving thing stands on " + what)};
+  const Anchor from = begin(start, end, nav_mesh_.mesh().polygon(to.place->polygon).component);
   if (!from.place)
-    return {no_plan(PlanStatus::no_route, "nothing joins the robot with the end of the map now")};
-  return between(from, *to, start, to->point);
+    return {no_plan(PlanStatus::no_route, "nothing joins the robot with " + what + " now")};
+  return between(from, *to.place, start, exactly ? end : to.place->point);
 }
 
 Route RouteFinder::between(const Anchor& from, const mesh::Mesh::Place& to, Point start,

@@ -50,7 +50,7 @@ class RouteFinder {
   [[nodiscard]] double radius() const { return nav_mesh_.config().robot_radius; }
   /// Nothing, or why no path to the goal can be found whatever moves.
   [[nodiscard]] std::optional<Plan> refused(Point start, Point goal) const;
-  [[nodiscard]] Route find_end(Point start, Point end);
+  [[nodiscard]] Route find_on_floor(Point start, Point end, bool exactly);
   [[nodiscard]] Guidance::Refusal refusal_of(Point goal) const;
   [[nodiscard]] Guidance::Refusal too_near(Point goal, double distance) const;
   [[nodiscard]] Guidance::Refusal not_joined(Point start, Point goal) const;
