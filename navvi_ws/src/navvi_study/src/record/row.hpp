@@ -12,7 +12,6 @@ namespace navvi_study::record {
 
 using navvi_files::fixed;
 
-
 [[nodiscard]] std::string csv_line(const std::vector<std::string>& cells);
 /// The cells of one line, without its end; nullopt where quotes are not in order.
 [[nodiscard]] std::optional<std::vector<std::string>> cells_of(std::string_view line);

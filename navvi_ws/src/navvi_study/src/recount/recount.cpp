@@ -43,32 +43,20 @@ trial::TrialMonitorConfig config_of(const record::Row& row) {
   return config;
 }
 
-/// What trial_node itself said: when the trial began and ended, and its goals.
-struct Told {
-  std::vector<record::Row> events;
-  ros::Time over;  ///< when the bag got the end: what came later was counted by nobody
-};
-
-Told told_in(const rosbag::Bag& bag) {
-  Told told;
-  for (const auto& item : rosbag::View(bag, rosbag::TypeQuery("navvi_msgs/TrialEvent"))) {
-    const auto msg = message_of<navvi_msgs::TrialEvent>(item);
-    const auto row = msg ? node::from_msg(*msg) : std::nullopt;
-    if (!row) continue;
-    told.events.push_back(*row);
-    if (row->type == "TRIAL_END") told.over = item.getTime();
-  }
-  return told;
-}
-
 class Recount {
  public:
-  explicit Recount(const Told& told) : over_(told.over) {
-    for (const auto& row : told.events) {
-      if (row.type == "TRIAL_START") start_ = row;
-      if (row.type == "GOAL_SET") goals_.push_back(row);
-      if (row.type == "CUE" || row.type == "CUE_END") cues_.push_back(row);
-      if (row.type == "TRIAL_END") end_ = row;
+  /// Reads what trial_node itself said: when the trial began and ended, and its goals.
+  explicit Recount(const rosbag::Bag& bag) : bag_(bag) {
+    for (const auto& item : rosbag::View(bag, rosbag::TypeQuery("navvi_msgs/TrialEvent"))) {
+      const auto msg = message_of<navvi_msgs::TrialEvent>(item);
+      const auto row = msg ? node::from_msg(*msg) : std::nullopt;
+      if (!row) continue;
+      if (row->type == "TRIAL_START") start_ = *row;
+      if (row->type == "GOAL_SET") goals_.push_back(*row);
+      if (row->type == "CUE" || row->type == "CUE_END") cues_.push_back(*row);
+      if (row->type != "TRIAL_END") continue;
+      end_ = *row;
+      over_ = item.getTime();
     }
     if (start_.type.empty()) throw std::runtime_error("the bag does not hold the trial's start");
     if (end_.type.empty()) throw std::runtime_error("the bag does not hold the trial's end");
@@ -77,7 +65,7 @@ class Recount {
       odom_frame_ = settings.substr(at + name.size(), settings.find(' ', at) - at - name.size());
   }
 
-  void replay(const rosbag::Bag& bag, const std::filesystem::path& phrases) {
+  void replay(const std::filesystem::path& phrases) {
     monitor_ = trial::TrialMonitor(config_of(start_));
     if (const auto name = start_.fields.find("phrases"))
       monitor_.understand(listener_.emplace(phrases / *name));
@@ -92,7 +80,7 @@ class Recount {
         change_goals_until(start_.sim_ns);
       }
       places_ = trial::OdometryInMap();
-      for (const auto& item : rosbag::View(bag, ros::TIME_MIN, over_)) see(item, before);
+      for (const auto& item : rosbag::View(bag_, ros::TIME_MIN, over_)) see(item, before);
     }
     record::Fields fields = monitor_.end_fields();
     const auto& arrival = monitor_.arrival();
@@ -196,6 +184,7 @@ class Recount {
     with<navvi_msgs::StateHash>(item, "/navvi/state_hash", observe_one);
   }
 
+  const rosbag::Bag& bag_;
   trial::TrialMonitor monitor_{trial::TrialMonitorConfig()};
   trial::Tracker tracker_;
   std::optional<navvi_people::people::Listener> listener_;
@@ -203,7 +192,7 @@ class Recount {
   std::string odom_frame_ = "odom";
   record::Row start_;
   record::Row end_;
-  ros::Time over_;
+  ros::Time over_;          ///< when the bag got the end: what came later was counted by nobody
   std::int64_t clock_ = 0;  ///< ns, ROS time at which the bag got what is seen
   std::vector<record::Row> goals_, cues_;
   std::size_t next_goal_ = 0;
@@ -217,8 +206,8 @@ class Recount {
 Recounted trial_from_bag(const std::filesystem::path& path, const std::filesystem::path& phrases) {
   rosbag::Bag bag;
   bag.open(path.string(), rosbag::bagmode::Read);
-  Recount recount(told_in(bag));
-  recount.replay(bag, phrases);
+  Recount recount(bag);
+  recount.replay(phrases);
   return recount.trial();
 }
 

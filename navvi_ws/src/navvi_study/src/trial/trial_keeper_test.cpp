@@ -441,7 +441,7 @@ TEST_F(Trials, of_a_job_lead_to_the_place_that_was_chosen_and_then_to_those_that
        {std::tuple(true, Goal(6.0, 0.0), "job_place=2"), std::tuple(true, Goal(9.0, 0.0), ""),
         std::tuple(false, Goal(3.0, 0.0), "job_place=1")}) {
     if (chosen) keeper_->take_goal(leads, now());
-    keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+    press();
     live(1.0, State::following, leads);
     EXPECT_EQ(goals_.back(), leads);
     EXPECT_NE(content("journal.csv").find(*place != 0 ? place : "TRIAL_START"), std::string::npos);
@@ -449,7 +449,7 @@ TEST_F(Trials, of_a_job_lead_to_the_place_that_was_chosen_and_then_to_those_that
     live(9.0, State::arrived, leads);
     EXPECT_EQ(waits_.place, std::string(*place == 0 ? "" : leads.x() > 5.0 ? "dock" : "packing table"));
   }
-  keeper_->take(TrialRequest{TrialRequest::Kind::begin, now().ros_ns}, now());
+  press();
   live(1.0, State::arrived, {3.0, 0.0});
   EXPECT_TRUE(keeper_->done());
 }
@@ -506,18 +506,15 @@ TEST_F(Trials, of_a_job_in_a_study_lead_to_each_place_once_and_end_where_one_bre
     config_.press_to_start = config_.locked = true;
     config_.limit = 5.0;
     offer();
-    const auto press = [&](TrialRequest::Kind kind) {
-      keeper_->take(TrialRequest{kind, now().ros_ns}, now());
-    };
     live(1.0);
-    press(TrialRequest::Kind::begin);
+    press();
     live(1.0, State::following, {3.0, 0.0});
     if (breaks_off) press(TrialRequest::Kind::end);
     live(9.0, State::following, {3.0, 0.0});
     EXPECT_EQ(keeper_->done(), breaks_off);
     if (breaks_off) break;
     EXPECT_EQ(waits_.place, "") << "it was not reached";
-    press(TrialRequest::Kind::begin);
+    press();
     live(9.0, State::following, {6.0, 0.0});
     EXPECT_TRUE(keeper_->done()) << "nothing is to be confirmed there";
   }
@@ -545,8 +542,7 @@ TEST_F(Trials, do_not_begin_without_what_their_condition_needs) {
   offer();
   live(3.0);
   EXPECT_TRUE(events_.empty());
-  for (const char* device : {"audio", "speech"})
-    report(device);
+  for (const char* device : {"audio", "speech"}) report(device);
   live(1.0);
   EXPECT_TRUE(happened("TRIAL_START"));
 }

@@ -10,8 +10,6 @@
 namespace navvi_study::trial {
 namespace {
 
-using namespace navvi_types;
-
 constexpr std::size_t kReports = 20;  // of latencies; some seconds
 constexpr double kSameGoal = 0.05;    // m
 constexpr double kMoved = 0.05;       // m, driven
@@ -25,20 +23,11 @@ std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9
 
 bool same(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return (a - b).norm() < kSameGoal; }
 
-const char* kind_of(ThingClass thing_class) {
-  return thing_class == ThingClass::shelf ? "shelf" : "obstacle";
-}
-
-std::uint64_t shelves_in(const Contact& contact) {
-  const auto shelves = contact.counts.find(ThingClass::shelf);
-  return shelves == contact.counts.end() ? 0 : shelves->second;
-}
-
-/// Everything but shelves.
-std::uint64_t obstacles_in(const Contact& contact) {
+/// With shelves, or with everything else.
+std::uint64_t count_in(const Contact& contact, bool shelves) {
   std::uint64_t sum = 0;
   for (const auto& [thing_class, count] : contact.counts)
-    if (thing_class != ThingClass::shelf) sum += count;
+    if ((thing_class == ThingClass::shelf) == shelves) sum += count;
   return sum;
 }
 
@@ -194,7 +183,7 @@ void TrialMonitor::collision(const Contact* contact, bool shelf, std::int64_t st
 std::vector<Event> TrialMonitor::observe(const Contact& contact) {
   const bool inside = counts(contact.stamp);
   const bool shelf = contact.thing_class == ThingClass::shelf;
-  const std::uint64_t shelves = shelves_in(contact), obstacles = obstacles_in(contact);
+  const std::uint64_t shelves = count_in(contact, true), obstacles = count_in(contact, false);
   std::vector<Event> events;
   if (inside && contact.seq <= hits_.contact_seq) {
     if (contact.seq == 1) world_restarted_ = true;
@@ -233,7 +222,7 @@ std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
   std::vector<Event> events;
   const auto event = [&](const char* type, const NearThing& thing) {
     record::Fields fields;
-    fields.set("kind", kind_of(thing.thing_class));
+    fields.set("kind", thing.thing_class == ThingClass::shelf ? "shelf" : "obstacle");
     fields.set("id", std::uint64_t{thing.id}).set("class", to_string(thing.thing_class));
     fields.set("thing", thing.name).set("gap", thing.gap).set("zone", zone(thing.nearest.y()));
     const auto at = driven_.odometry ? driven_.odometry->pose.position : Eigen::Vector2d(NAN, NAN);

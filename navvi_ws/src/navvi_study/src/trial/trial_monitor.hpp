@@ -211,14 +211,12 @@ class TrialMonitor {
   std::map<std::uint32_t, std::int64_t> felt_;  ///< ns, since when in reach, by thing
   Guided guided_;
   std::set<std::uint32_t> stuck_cues_;
-  std::map<navvi_types::Modality, std::string>
-      playing_;  ///< kind of the last cue that is no speech
+  std::map<Modality, std::string> playing_;  ///< kind of the last cue that is no speech
   std::vector<LinkState> links_;
   double round_trip_ = 0.0;  ///< s
-  DriveState::Reason stopped_for_ =
-      DriveState::Reason::none;  ///< by the last stage before the wheels
-  DriveState::Assistance assists_ = DriveState::Assistance::nothing;  ///< likewise
-  std::string intruder_;         ///< that stage ignores this node
+  DriveState::Reason stopped_for_ = {};  ///< by the last stage before the wheels
+  DriveState::Assistance assists_ = {};  ///< likewise
+  std::string intruder_;                 ///< that stage ignores this node
   std::map<std::string, DeviceReport> devices_;
   std::vector<DeviceReport> latencies_;   ///< the last ones, as an end may be told after it
   std::optional<StateHash> world_state_;  ///< the last one, none later than the end
