@@ -75,6 +75,7 @@ class Trials : public testing::Test {
     report.state = state;
     report.goal = goal;
     report.plans = plans_;
+    report.replan_reason = Guidance::Replan::new_goal;
     keeper_->take(report, now());
   }
   /// With a world that asks for a trial.

@@ -14,10 +14,9 @@ constexpr std::size_t kReports = 20;  // of latencies; some seconds
 constexpr double kSameGoal = 0.05;    // m
 constexpr double kMoved = 0.05;       // m, driven
 constexpr double kTurned = 0.1;       // rad
-constexpr std::int64_t kOldNews =
-    2'000'000'000;               // ns in which an arrival or a refusal may still be the last goal's
-constexpr double kBeside = 3.0;  // m, from the hull to a thing beside the robot
-constexpr double kAhead = 1.0;   // s, farther no report is, but for a clock that was set back
+constexpr double kOldNews = 2.0;      // s in which guidance may be of the same place, set before
+constexpr double kBeside = 3.0;       // m, from the hull to a thing beside the robot
+constexpr double kAhead = 1.0;        // s, farther no report is, but for a clock that was set back
 
 std::int64_t ns(double seconds) { return static_cast<std::int64_t>(seconds * 1e9); }
 
@@ -256,21 +255,22 @@ std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
 bool TrialMonitor::about_this_goal(const Guidance& guidance) {
   using State = Guidance::State;
   if (goal_.taken) return true;
-  const bool refused = guidance.state == State::goal_refused;
-  const bool was_refused = guided_.before && guided_.before->state == State::goal_refused;
+  const auto& before = guided_.before;
   const bool goal_matches = same(guidance.goal, start_->goal);
-  const bool old = goal_matches && guided_.before && guided_.before->state == guidance.state &&
-                   same(guided_.before->goal, start_->goal) &&
-                   guided_.before->plans == guidance.plans;
-  if (refused) {
+  // Each time that a goal is set, the guide plans anew, also to where it leads already.
+  const bool old =
+      goal_matches && before && same(before->goal, start_->goal) &&
+      guidance.stamp <= start_->stamp + ns(kOldNews) &&
+      (guidance.plans == before->plans || guidance.replan_reason != Guidance::Replan::new_goal);
+  if (guidance.state == State::goal_refused) {
     // A refusal may come with the goal that is still valid. The last goal's may be of this place:
     // the person asks for it a second time.
-    goal_.taken = old ? guidance.stamp > start_->stamp + kOldNews : goal_matches || !was_refused;
-  } else if (guidance.state == State::arrived && old) {
-    goal_.taken = guidance.stamp > start_->stamp + kOldNews;
+    const bool was_refused = before && before->state == State::goal_refused;
+    goal_.taken = !was_refused || (goal_matches && !old);
   } else {
-    goal_.taken = goal_matches && (guidance.leads_to_goal() || guidance.state == State::arrived ||
-                                   guidance.state == State::no_route);
+    goal_.taken = goal_matches && !old &&
+                  (guidance.leads_to_goal() || guidance.state == State::arrived ||
+                   guidance.state == State::no_route || guidance.state == State::off_mesh);
   }
   return goal_.taken;
 }

@@ -21,6 +21,7 @@ class Monitor : public testing::Test {
     report.goal = {5.0, 0.0};
     report.goal_distance = 5.0;
     report.plans = 1;
+    report.replan_reason = Guidance::Replan::new_goal;
     return report;
   }
   static Contact contact(double time, std::uint32_t seq, const char* what, int shelves,
@@ -289,6 +290,25 @@ TEST_F(Monitor, does_not_take_the_last_goals_arrival_for_its_own) {
   EXPECT_TRUE(monitor.arrival());
 }
 
+TEST_F(Monitor, does_not_take_the_path_to_its_goal_that_was_followed_before_it_for_its_own) {
+  TrialMonitor monitor{TrialMonitorConfig()};
+  const auto seen_at = [&](double time, std::uint32_t plans, std::uint32_t reroutes) {
+    Guidance report = guidance(time, State::following);
+    report.plans = plans;
+    report.reroutes = reroutes;
+    if (reroutes > 0) report.replan_reason = Guidance::Replan::period;
+    return types(monitor.observe(report));
+  };
+  (void)seen_at(9.9, 4, 3);
+  monitor.start({10 * kSecond, {5.0, 0.0}});
+  EXPECT_EQ(seen_at(10.05, 4, 3), Names{});
+  EXPECT_EQ(seen_at(10.1, 5, 4), Names{}) << "before the goal has come to the guide";
+  EXPECT_FALSE(monitor.goal_taken());
+  EXPECT_EQ(seen_at(10.2, 6, 0), (Names{"GUIDANCE", "ROUTE"}));
+  EXPECT_EQ(monitor.tally().replans, 0u);
+  EXPECT_EQ(monitor.tally_fields().get("reroutes"), "0");
+}
+
 TEST_F(Monitor, does_not_take_another_goals_path_for_its_own) {
   auto other = guidance(10.5, State::following);
   other.goal = {1.0, 1.0};
@@ -329,6 +349,16 @@ TEST_F(Monitor, goes_on_counting_plans_when_the_guidance_was_started_anew) {
 TEST_F(Monitor, takes_a_way_that_is_blocked_for_a_moment_for_a_way) {
   EXPECT_EQ(seen(guidance(10.5, State::blocked)), (Names{"GUIDANCE", "ROUTE"}));
   EXPECT_TRUE(monitor_.goal_taken());
+}
+
+TEST_F(Monitor, N4_does_not_ask_for_its_goal_again_where_no_path_begins_at_the_robot) {
+  for (const State state : {State::no_route, State::off_mesh}) {
+    monitor_.start({10 * kSecond, {5.0, 0.0}});
+    Guidance report = guidance(10.5, state);
+    report.plans = state == State::off_mesh ? 2 : 1;
+    EXPECT_EQ(seen(report), Names{"GUIDANCE"});
+    EXPECT_TRUE(monitor_.goal_taken());
+  }
 }
 
 TEST_F(Monitor, measures_the_way_driven) {
