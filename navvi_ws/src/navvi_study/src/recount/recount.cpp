@@ -23,10 +23,9 @@ trial::TrialStart start_of(const record::Row& row) {
   start.stamp = row.sim_ns;
   start.goal = {row.fields.number("goal_x").value_or(0.0),
                 row.fields.number("goal_y").value_or(0.0)};
-  start.contact_seq = static_cast<std::uint32_t>(count_in(row, "contact_seq"));
+  start.hits = {static_cast<std::uint32_t>(count_in(row, "contact_seq")),
+                count_in(row, "shelf_contacts"), count_in(row, "obstacle_contacts")};
   start.hits_known = row.fields.number("contact_seq").has_value();
-  start.shelf_count = count_in(row, "shelf_contacts");
-  start.obstacle_count = count_in(row, "obstacle_contacts");
   if (!row.fields.find("stuck_cues")) start.stuck = {navvi_types::CueKind::stuck};
   return start;
 }

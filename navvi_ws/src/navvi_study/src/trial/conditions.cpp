@@ -117,10 +117,10 @@ void add_conditions(record::Fields& fields, const TrialNodeConfig& config,
   fields.set("goal_x", start.goal.x(), 6).set("goal_y", start.goal.y(), 6);
   fields.set("limit", config.limit);
   fields.set("contacts", config.contacts);
-  const bool known = start.hits_known || start.contact_seq > 0;
-  fields.set("contact_seq", known ? std::to_string(start.contact_seq) : "n/a");
-  fields.set("shelf_contacts", start.shelf_count);
-  fields.set("obstacle_contacts", start.obstacle_count);
+  const bool known = start.hits_known || start.hits.contact_seq > 0;
+  fields.set("contact_seq", known ? std::to_string(start.hits.contact_seq) : "n/a");
+  fields.set("shelf_contacts", start.hits.shelf_count);
+  fields.set("obstacle_contacts", start.hits.obstacle_count);
   const TrialMonitorConfig& monitor = config.monitor;
   fields.set("obstacle_range", monitor.obstacle_range).set("shelf_range", monitor.shelf_range);
   fields.set("leave_margin", monitor.leave_margin).set("leave_time", monitor.leave_time);

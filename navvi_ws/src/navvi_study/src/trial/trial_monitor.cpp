@@ -54,15 +54,18 @@ bool TrialMonitor::ahead(std::int64_t stamp, std::int64_t clock) const {
 
 TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) {
   if (1e-9 * static_cast<double>(latest_ - stamp) > kAhead + round_trip_) latest_ = stamp;
-  return {std::max(stamp, latest_), goal, hits_.contact_seq, hits_.shelf_count,
-          hits_.obstacle_count};
+  const std::int64_t begin = std::max(stamp, latest_);
+  // Others are of a simulator that was started anew since then, and counts from 1.
+  const bool known = hits_.stamp <= begin;
+  if (!known) hits_ = {};
+  return {begin, goal, hits_, known};
 }
 
 void TrialMonitor::start(const TrialStart& start) {
   start_ = start;
   end_.reset();
   tally_ = Tally();
-  hits_ = {start.contact_seq, start.shelf_count, start.obstacle_count};
+  hits_ = start.hits;
   inside_.clear();
   driven_.next_progress = start.stamp;
   driven_.odometry.reset();
@@ -205,7 +208,7 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
       collision(nullptr, false, contact.stamp, events);
     collision(&contact, shelf, contact.stamp, events);
   }
-  hits_ = {contact.seq, shelves, obstacles};
+  hits_ = {contact.seq, shelves, obstacles, contact.stamp};
   return events;
 }
 

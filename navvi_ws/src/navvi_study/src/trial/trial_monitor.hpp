@@ -62,14 +62,20 @@ struct TrialMonitorConfig {
   double arrival_range = 1.0 + navvi_types::kArrivalMargin;
 };
 
+/// Contacts so far, up to the last one.
+struct Hits {
+  std::uint32_t contact_seq = 0;
+  std::uint64_t shelf_count = 0;
+  std::uint64_t obstacle_count = 0;
+  std::int64_t stamp = 0;  ///< not in a record
+};
+
 /// What a trial's first row says, so that the same messages give the same events again.
 struct TrialStart {
   std::int64_t stamp = 0;  ///< messages stamped later than this belong to the trial
   Eigen::Vector2d goal = Eigen::Vector2d::Zero();
-  std::uint32_t contact_seq = 0;  ///< of the last contact before the trial
-  std::uint64_t shelf_count = 0;  ///< contacts before the trial
-  std::uint64_t obstacle_count = 0;
-  /// These three are the world's, also as 0; else a first contact may follow others' in it.
+  Hits hits = {};  ///< before the trial
+  /// These are the world's, also as 0; else a first contact may follow others' in it.
   bool hits_known = false;
   /// Kinds of cues that say that the robot is stuck; records of 0.1.0 count the first alone.
   std::vector<CueKind> stuck = {CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away};
@@ -165,12 +171,6 @@ class TrialMonitor {
     std::optional<Odometry> seen;      ///< the last one at all
     std::int64_t next_progress = 0;    ///< ns
     std::optional<Proximity> near;     ///< the last one of the trial
-  };
-  /// Of the session, up to the last contact.
-  struct Hits {
-    std::uint32_t contact_seq = 0;
-    std::uint64_t shelf_count = 0;
-    std::uint64_t obstacle_count = 0;
   };
   struct Guided {
     std::optional<Guidance> guidance;    ///< the last one
