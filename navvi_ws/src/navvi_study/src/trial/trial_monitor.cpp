@@ -67,12 +67,9 @@ void TrialMonitor::start(const TrialStart& start) {
   tally_ = Tally();
   hits_ = start.hits;
   inside_.clear();
-  driven_.next_progress = start.stamp;
-  driven_.odometry.reset();
-  driven_.near.reset();
-  const auto before = guided_.guidance;
-  guided_ = {};
-  guided_.before = before;
+  for (auto& felt : felt_) felt.second = start.stamp;
+  driven_ = {std::nullopt, 0.0, driven_.seen, start.stamp, std::nullopt};
+  guided_ = {std::nullopt, guided_.guidance, std::nullopt, 0, std::nullopt};
   playing_.clear();
   latencies_.clear();
   links_.clear();
@@ -214,10 +211,9 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
 
 std::vector<Event> TrialMonitor::observe(const Proximity& proximity) {
   std::map<std::uint32_t, std::int64_t> felt;
-  for (const auto& thing : proximity.things) {
-    const auto known = felt_.find(thing.id);
-    felt[thing.id] = known != felt_.end() ? known->second : proximity.stamp;
-  }
+  const std::int64_t since = std::max(proximity.stamp, start_ ? start_->stamp : 0);
+  for (const auto& thing : proximity.things)
+    felt[thing.id] = felt_.try_emplace(thing.id, since).first->second;
   felt_ = std::move(felt);
   if (!counts(proximity.stamp)) return {};
   driven_.near = proximity;

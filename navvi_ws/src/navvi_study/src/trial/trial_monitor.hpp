@@ -208,7 +208,7 @@ class TrialMonitor {
   Driven driven_;
   Hits hits_;
   std::map<std::uint32_t, Inside> inside_;
-  std::map<std::uint32_t, std::int64_t> felt_;  ///< ns, since when in reach, by thing
+  std::map<std::uint32_t, std::int64_t> felt_;  ///< ns, since when near, by thing
   Guided guided_;
   std::set<std::uint32_t> stuck_cues_;
   std::map<Modality, std::string> playing_;  ///< kind of the last cue that is no speech

@@ -159,6 +159,17 @@ TEST_F(Monitor, counts_a_contact_that_comes_twice_once) {
   EXPECT_TRUE(monitor_.world_restarted());
 }
 
+TEST_F(Monitor, tells_since_when_a_thing_was_near_and_of_no_time_before_the_trial) {
+  for (const double time : {1.0, 5000.0}) {  // of a simulator before this one
+    TrialMonitor monitor{TrialMonitorConfig()};
+    (void)monitor.observe(near(time, "worker", 1.0));
+    monitor.start({10 * kSecond, {5.0, 0.0}});
+    Contact hit = contact(12.0, 1, "worker", 0, 1);
+    hit.id = 1;
+    EXPECT_EQ(monitor.observe(hit).at(0).fields.get("felt"), "2.000");
+  }
+}
+
 TEST_F(Monitor, does_not_flicker_at_the_boundary) {
   EXPECT_EQ(seen(near(11.0, "worker", 4.9, 2.0)), Names{"PROXIMITY_ENTER"});
   for (int i = 0; i < 20; ++i) {
