@@ -391,6 +391,9 @@ std::vector<Event> TrialMonitor::observe(const CueEvent& cue) {
   if (const auto row = row_of(cue)) events.push_back(*row);
   if (cue.modality() != Modality::speech) return events;
   if (cue.stage == CueStage::started) ++tally_.cues_spoken;
+  // A feedback_node that was started anew numbers its cues from 1.
+  if (cue.stage == CueStage::queued && stuck_cues_.lower_bound(cue.id) != stuck_cues_.end())
+    stuck_cues_.clear();
   // However its speech fares, a cue that says stuck is the fact of being stuck.
   const std::vector<CueKind>& stuck = start_->stuck;
   const bool says_stuck = std::find(stuck.begin(), stuck.end(), cue.kind()) != stuck.end();

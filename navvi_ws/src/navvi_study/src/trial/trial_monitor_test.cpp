@@ -449,6 +449,8 @@ TEST_F(Monitor, counts_being_stuck_once_a_cue) {
   EXPECT_EQ(events(7, CueStage::started), Names{"CUE"});
   EXPECT_EQ(events(8, CueStage::dropped), Names{"STUCK"});
   EXPECT_EQ(monitor_.tally().cues_spoken, 1u);
+  EXPECT_EQ(events(7, CueStage::queued), Names{"STUCK"}) << "of another feedback_node";
+  EXPECT_EQ(events(7, CueStage::started), Names{"CUE"});
 }
 
 TEST_F(Monitor, counts_every_way_of_being_told_that_the_robot_is_stuck) {
