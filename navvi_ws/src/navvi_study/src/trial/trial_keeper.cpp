@@ -78,7 +78,7 @@ void TrialKeeper::take(const Correction& correction, const Moment& now) {
 
 void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
-  const bool refused = guidance.state == Guidance::State::goal_refused;
+  const bool refused = guidance.state == Guidance::State::goal_refused && !drops(guidance.stamp);
   if (phase_ != Phase::running && refused && goals_.next && job_.places.empty() &&
       (guidance.goal - goals_.next->place).norm() < kSame)
     goals_.next.reset();

@@ -295,6 +295,11 @@ TEST_F(Trials, that_are_to_begin_forget_a_goal_that_is_refused) {
   begin();
   live(1.0);
   keeper_->take_goal({500.0, 0.0}, now());
+  Guidance ahead;
+  ahead.stamp = now().ros_ns + 3600'000'000'000;
+  ahead.state = State::goal_refused;
+  ahead.goal = {500.0, 0.0};
+  keeper_->take(ahead, now());
   live(0.1);
   EXPECT_EQ(shown_.back(), TrialState::State::ready);
   live(0.1, State::goal_refused, {500.0, 0.0});
