@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "record/row.hpp"
-
 namespace navvi_study::record {
 namespace {
 
-std::string seconds(std::int64_t from, std::int64_t to) {
-  return fixed(static_cast<double>(to - from) * 1e-9, 3);
+std::string seconds(std::int64_t from, std::int64_t to, double less = 0.0) {
+  return fixed(static_cast<double>(to - from) * 1e-9 - less, 3);
 }
 
 /// What the paper's Table III calls it; the type itself for what the paper does not have.
@@ -23,23 +21,25 @@ std::string paper_name(const Row& row) {
   return name;
 }
 
-/// What began in a row of this type ends in one of the type that is returned.
-const char* end_of(const std::string& type) {
-  if (type == "PROXIMITY_ENTER") return "PROXIMITY_LEAVE";
-  return type == "CUE" ? "CUE_END" : nullptr;
-}
-
 /// s, duration of the interval that `rows[at]` opens; n/a if that is not known, 0 for what only
 /// happened.
-std::string duration_of(const std::vector<Row>& rows, std::size_t at) {
-  const char* end = end_of(rows[at].type);
-  if (end == nullptr) return "0";
-  const auto same = [&](const Row& row, const char* name) {
-    return row.fields.get(name) == rows[at].fields.get(name);
+std::string duration_of(const std::vector<Row>& rows, std::size_t at, const Row& start) {
+  const Row& row = rows[at];
+  const bool cue = row.type == "CUE";
+  if (!cue && row.type != "PROXIMITY_ENTER") return "0";
+  // The end of a sound or a pattern is not recorded.
+  if (row.fields.get("modality", "speech") != "speech") return "n/a";
+  const char* end = cue ? "CUE_END" : "PROXIMITY_LEAVE";
+  // A thing that is recorded to leave has been away for so long.
+  const double away = cue ? 0.0 : start.fields.number("leave_time").value_or(0.0);
+  const auto same = [&](const Row& other, const char* name) {
+    return other.fields.get(name) == row.fields.get(name);
   };
   for (std::size_t i = at + 1; i < rows.size(); ++i) {
-    if (rows[i].type == end && same(rows[i], "id") && same(rows[i], "modality"))
-      return seconds(rows[at].sim_ns, rows[i].sim_ns);
+    const bool ends = rows[i].type == end, begins = rows[i].type == row.type;
+    if (!(ends || begins) || !same(rows[i], "id") || !same(rows[i], "modality")) continue;
+    // A node that was started anew numbers from 1 again.
+    return begins ? "n/a" : seconds(row.sim_ns, rows[i].sim_ns, away);
   }
   return "n/a";
 }
@@ -78,7 +78,7 @@ std::string events_csv(const Trial& trial) {
     const bool collision = row.type == "COLLISION";
     const bool shelf = row.fields.get("kind") == "shelf";
     const bool zoned = row.type == "PROXIMITY_ENTER" && !shelf;
-    text += csv_line({seconds(start->sim_ns, row.sim_ns), duration_of(rows, i), row.trial,
+    text += csv_line({seconds(start->sim_ns, row.sim_ns), duration_of(rows, i, *start), row.trial,
                     start->fields.get("participant"), row.fields.get("utc"), paper_name(row),
                     row.fields.get("x"), row.fields.get("y"), row.fields.get("goal_x"),
                     row.fields.get("goal_y"), zoned ? row.fields.get("zone") : "n/a",
@@ -86,7 +86,8 @@ std::string events_csv(const Trial& trial) {
                     collision && shelf ? row.fields.get("count") : "n/a", row.fields.get("elapsed"),
                     row.fields.get("class"), row.fields.get("thing"), row.fields.get("text"),
                     row.type == "CUE" ? row.fields.get("kind")
-                                      : any_of(row, {"reason", "state", "device", "result"})});
+                                      : any_of(row, {"reason", "state", "device", "result", "does",
+                                                     "late", "node", "name"})});
   }
   return text;
 }

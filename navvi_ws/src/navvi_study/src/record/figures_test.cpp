@@ -310,6 +310,36 @@ TEST(Events, tell_cues_by_their_words_and_how_long_they_were_heard) {
   EXPECT_NE(events_csv(trial).find(",turn now,turn_now\n"), std::string::npos);
 }
 
+TEST(Events, last_until_a_thing_left_and_not_until_that_was_certain) {
+  Made trial = example();
+  trial.rows.front().fields.set("leave_time", 0.5);
+  EXPECT_NE(events_csv(trial).find("\n1.000,1.500,"), std::string::npos);
+}
+
+TEST(Events, have_no_end_where_none_is_recorded_of_them) {
+  Made trial = example();
+  const auto cue = [&](double time, const char* type, const char* modality) {
+    trial.add(time, type, Fields().set("id", "3").set("modality", modality));
+  };
+  cue(107.0, "CUE", "speech");
+  cue(108.0, "CUE", "sound");
+  cue(150.0, "CUE", "speech");  // of a feedback_node that was started anew
+  cue(151.0, "CUE_END", "speech");
+  cue(152.0, "CUE_END", "sound");
+  for (const char* row : {"\n7.000,n/a,", "\n8.000,n/a,", "\n50.000,1.000,"})
+    EXPECT_NE(events_csv(trial).find(row), std::string::npos) << row;
+}
+
+TEST(Events, tell_what_was_done_how_late_it_was_and_by_whom) {
+  Made trial = example();
+  for (const auto& [type, field, value] :
+       {std::tuple{"ASSISTED", "does", "slows"}, {"LINK_LATE", "late", "too_late"},
+        {"INTRUDER", "node", "/teleop"}, {"PARAMETER_SET", "name", "sim/seed"}}) {
+    trial.add(107.0, type, Fields().set(field, value));
+    EXPECT_NE(events_csv(trial).find(std::string(",") + value + "\n"), std::string::npos) << type;
+  }
+}
+
 TEST(Events, stand_in_the_order_of_their_onsets_however_late_they_came) {
   Made trial = example();
   trial.add(103.0, "CUE", Fields().set("id", "9").set("kind", "turn_now").set("text", "turn now"));
