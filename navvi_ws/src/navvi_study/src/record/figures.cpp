@@ -18,9 +18,10 @@ using Of = std::function<std::string(const Trial&)>;
 constexpr const char* kNothing = "n/a";
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-constexpr double kFelt = 3.0;      // s before a contact
-constexpr double kTold = 2.0;      // s
-constexpr double kLongAgo = 10.0;  // s; a word before that was no warning
+constexpr double kFelt = 3.0;       // s before a contact
+constexpr double kTold = 2.0;       // s
+constexpr double kLongAgo = 10.0;   // s; a word before that was no warning
+constexpr double kSameGoal = 0.05;  // m
 
 std::string text_of(double value, int decimals = 3) {
   return std::isfinite(value) ? fixed(value, decimals) : kNothing;
@@ -72,20 +73,17 @@ double duration(const Trial& trial) { return std::max(1.0, trial.end() - trial.b
 
 // Makers of figures.
 
-Of first(const char* type, const std::string& field) {
-  return [=](const Trial& trial) { return text_of(trial.first(type), field); };
-}
 /// Of the last one, if there is one.
 Of last(const char* type, const char* field, const char* otherwise = kNothing) {
   return [=](const Trial& trial) {
-    const Row* row = trial.last(type);
-    return row != nullptr ? row->fields.get(field) : otherwise;
+    return trial.last(type) != nullptr ? text_of(trial.last(type), field) : otherwise;
   };
 }
-Of as_begun(const std::string& field) { return first("TRIAL_START", field); }
-Of as_summed(const std::string& field) {
-  return [=](const Trial& trial) { return text_of(sums_of(trial), field); };
+Of field_of(const Row* (*row)(const Trial&), const std::string& field) {
+  return [=](const Trial& trial) { return text_of(row(trial), field); };
 }
+Of as_begun(const std::string& field) { return field_of(start_of, field); }
+Of as_summed(const std::string& field) { return field_of(sums_of, field); }
 Of counts(const char* type, const char* kind = "") {
   return [=](const Trial& trial) { return count_of(trial, type, kind); };
 }
@@ -121,10 +119,19 @@ std::string elapsed(const Trial& trial) {
   return start_of(trial) != nullptr ? text_of(trial.end() - trial.begin()) : kNothing;
 }
 
+/// nullptr also where the goal was changed, as the way driven led to another.
+const Row* route_of(const Trial& trial) {
+  const auto apart = [&](const char* axis) {
+    return std::abs(number_of(trial.last("GOAL_SET"), axis) -
+                    number_of(trial.first("GOAL_SET"), axis));
+  };
+  return apart("goal_x") + apart("goal_y") > kSameGoal ? nullptr : trial.first("ROUTE");
+}
+
 double spl(const Trial& trial) {
   const Row* end = trial.last("TRIAL_END");
   if (end == nullptr || end->fields.get("result") != "reached") return 0.0;
-  const double shortest = number_of(trial.first("ROUTE"), "shortest_path");
+  const double shortest = number_of(route_of(trial), "shortest_path");
   return shortest / std::max(number_of(sums_of(trial), "path_length"), shortest);
 }
 
@@ -326,9 +333,10 @@ std::vector<Figure> all_figures() {
       {"contacts_per_100m", "", "collisions per 100 m driven", "", contacts_per_100m},
       {"hits", "", "collisions by class", "", hits},
       {"path_length_m", "m", "way driven", "", as_summed("path_length")},
-      {"first_path_length_m", "m", "of the first path", "", first("ROUTE", "first_path_length")},
-      {"shortest_path_m", "m", "of the shortest path when the first one was planned", "",
-       first("ROUTE", "shortest_path")},
+      {"first_path_length_m", "m", "of the first path, if the goal was not changed", "",
+       field_of(route_of, "first_path_length")},
+      {"shortest_path_m", "m", "of the shortest path when the first one was planned, likewise", "",
+       field_of(route_of, "shortest_path")},
       {"spl", "", "shortest over driven way where the goal was reached, else 0", kSpl, value(spl)},
       {"obstacle_proximity_count", "", "times that an obstacle came within 5 m", kPaper,
        counts("PROXIMITY_ENTER", "obstacle")},

@@ -200,6 +200,20 @@ TEST(Figures, of_a_record_without_a_track_are_not_known_where_they_need_one) {
   EXPECT_EQ(summary["waits"], "1");
 }
 
+TEST(Figures, compare_no_way_with_the_path_to_a_goal_that_was_changed) {
+  Made trial = minute();
+  const auto set_goal = [&](double x, int decimals) {
+    trial.add(100.0, "GOAL_SET", Fields().set("goal_x", x, decimals).set("goal_y", 0.0));
+    return columns(trial);
+  };
+  const std::vector<std::pair<const char*, const char*>> known = {
+      {"spl", "0.800"}, {"first_path_length_m", "22.000"}, {"shortest_path_m", "20.000"}};
+  for (const double x : {9.1234567, 2.0, 9.1234567}) {
+    auto summary = set_goal(x, trial.first("GOAL_SET") == nullptr ? 6 : 3);
+    for (const auto& [name, value] : known) EXPECT_EQ(summary[name], x < 5.0 ? "n/a" : value);
+  }
+}
+
 TEST(Figures, judge_turns_by_median_and_tail) {
   Made trial;
   trial.add(0.0, "TRIAL_START");
