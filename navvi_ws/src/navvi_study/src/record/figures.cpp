@@ -95,6 +95,13 @@ Of counts(bool (*test)(const Row&)) {
 Of value(double (*of)(const Trial&), int decimals = 3) {
   return [=](const Trial& trial) { return text_of(of(trial), decimals); };
 }
+/// Of words, which are only known in this language.
+Of in_english(const Of& of) {
+  return [=](const Trial& trial) {
+    const std::string phrases = text_of(start_of(trial), "phrases");
+    return phrases == kNothing || phrases == "en.yaml" ? of(trial) : kNothing;
+  };
+}
 /// Of a record with a track.
 template <typename Number>
 Of tracked(Number (*of)(const Trial&), int decimals = 0) {
@@ -163,19 +170,16 @@ std::string assisted(const Trial& trial) {
 
 // Contacts.
 
-bool counts_contacts(const Trial& trial) {
-  const Row* start = start_of(trial);
-  return start == nullptr || start->fields.get("contacts", "counted") != "unknown";
-}
-Of collisions(const char* kind) {
+/// Where something tells of contacts.
+Of of_contacts(const Of& of) {
   return [=](const Trial& trial) {
-    return counts_contacts(trial) ? count_of(trial, "COLLISION", kind) : "unknown";
+    return text_of(start_of(trial), "contacts") != "unknown" ? of(trial) : "unknown";
   };
 }
 std::string contacts_per_100m(const Trial& trial) {
   const double driven = number_of(sums_of(trial), "path_length");
-  if (!counts_contacts(trial) || driven == 0.0) return kNothing;
-  return text_of(100.0 * std::stod(count_of(trial, "COLLISION", "")) / driven);
+  return driven == 0.0 ? kNothing
+                       : text_of(100.0 * std::stod(count_of(trial, "COLLISION", "")) / driven);
 }
 std::string listed(const std::vector<std::string>& words) {
   return words.empty() ? "-" : boost::algorithm::join(words, " ");
@@ -187,7 +191,7 @@ std::string hits(const Trial& trial) {
   std::vector<std::string> words;
   for (const auto& [thing_class, count] : counts)
     words.push_back(thing_class + " " + std::to_string(count));
-  return counts_contacts(trial) ? listed(words) : "unknown";
+  return listed(words);
 }
 bool is_mover(const std::string& thing_class) {
   return thing_class == "worker" || thing_class == "forklift" || thing_class == "pallet_robot";
@@ -202,11 +206,21 @@ double least_gap(const Trial& trial) {
   return least;
 }
 
+bool is_felt(const TrackRow& row) { return row.motor_left > 0.0F || row.motor_right > 0.0F; }
+
 /// How early a person was warned of what moves before it touched the robot, s.
 struct Warning {
   double felt = 0.0;
   double told = 0.0;
 };
+/// Since when a motor turned while it was near; 0: not at all.
+double felt_before(const Trial& trial, const Row& contact) {
+  const double time = time_of(contact);
+  const double near = time - contact.fields.number("felt").value_or(0.0);
+  for (const TrackRow& row : trial.track)
+    if (row.time >= near && row.time < time && is_felt(row)) return time - row.time;
+  return 0.0;
+}
 /// Since when that class was named, within the last 10 s; 0: not at all.
 double told_before(const Trial& trial, std::string thing_class, double time) {
   double told = 0.0;
@@ -225,30 +239,28 @@ std::vector<Warning> warnings_of(const Trial& trial) {
   std::vector<Warning> found;
   for (const Row& row : trial.rows)
     if (row.type == "COLLISION" && is_mover(row.fields.get("class")))
-      found.push_back({row.fields.number("felt").value_or(0.0),
-                       told_before(trial, row.fields.get("class"), time_of(row))});
+      found.push_back(
+          {felt_before(trial, row), told_before(trial, row.fields.get("class"), time_of(row))});
   return found;
 }
-std::string late_warnings(const Trial& trial) {
+std::ptrdiff_t late_warnings(const Trial& trial) {
   const auto all = warnings_of(trial);
-  return std::to_string(std::count_if(all.begin(), all.end(), [](const Warning& one) {
-    return one.felt < kFelt || one.told < kTold;
-  }));
+  return std::count_if(all.begin(), all.end(),
+                       [](const Warning& one) { return one.felt < kFelt || one.told < kTold; });
 }
 std::string warned(const Trial& trial) {
   std::vector<std::string> words;
   for (const Warning& one : warnings_of(trial))
     words.push_back(text_of(one.felt, 1) + "/" + text_of(one.told, 1));
-  return listed(words);
+  return trial.track.empty() ? kNothing : listed(words);
 }
 
 // What was said, and how the hands moved.
 
-double cues_per_minute(const Trial& trial) {
-  return 60.0 * speech_of(trial).cues / duration(trial);
-}
-double words_per_minute(const Trial& trial) {
-  return 60.0 * speech_of(trial).words / duration(trial);
+Of per_minute(int Speech::*count) {
+  return [=](const Trial& trial) {
+    return text_of(60.0 * (speech_of(trial).*count) / duration(trial), 1);
+  };
 }
 double talk(const Trial& trial) { return speech_of(trial).talk / duration(trial); }
 std::string turns_per_minute(const Trial& trial) {
@@ -268,7 +280,7 @@ double motors(const Trial& trial) {
   for (std::size_t i = 0; i < trial.track.size(); ++i) {
     const TrackRow& row = trial.track[i];
     const double until = i + 1 < trial.track.size() ? trial.track[i + 1].time : trial.end();
-    if (row.motor_left > 0.0F || row.motor_right > 0.0F) felt += until - row.time;
+    if (is_felt(row)) felt += until - row.time;
   }
   return felt / duration(trial);
 }
@@ -289,11 +301,10 @@ bool is_device_loss(const Row& row) {
   return row.type == "DEVICE_LOST" && row.fields.get("device") != "feedback";
 }
 std::string sounds_played(const Trial& trial) {
-  const Row* start = start_of(trial);
+  const std::string audio = text_of(start_of(trial), "audio");
   // A simulated person knows of sounds by message, also where no device plays them.
-  const bool unheard = start != nullptr && start->fields.get("pad") == "simulated" &&
-                       start->fields.get("audio") != "works" &&
-                       start->fields.get("audio") != "simulated";
+  const bool unheard =
+      text_of(start_of(trial), "pad") == "simulated" && audio != "works" && audio != "simulated";
   return unheard ? kNothing : text_of(sums_of(trial), "sounds_played");
 }
 
@@ -326,12 +337,13 @@ std::vector<Figure> all_figures() {
        last("TRIAL_END", "result", "aborted")},
       {"reason", "", "of the result", "", last("TRIAL_END", "reason", "no_end")},
       {"elapsed_s", "s", "simulated time from start to goal, or to the end", kPaper, elapsed},
-      {"shelf_collision_count", "", "collisions with shelves", kPaper, collisions("shelf")},
+      {"shelf_collision_count", "", "collisions with shelves", kPaper,
+       of_contacts(counts("COLLISION", "shelf"))},
       {"obstacle_collision_count", "", "collisions with everything else", kPaper,
-       collisions("obstacle")},
-      {"contacts", "", "collisions with anything", "", collisions("")},
-      {"contacts_per_100m", "", "collisions per 100 m driven", "", contacts_per_100m},
-      {"hits", "", "collisions by class", "", hits},
+       of_contacts(counts("COLLISION", "obstacle"))},
+      {"contacts", "", "collisions with anything", "", of_contacts(counts("COLLISION"))},
+      {"contacts_per_100m", "", "collisions per 100 m driven", "", of_contacts(contacts_per_100m)},
+      {"hits", "", "collisions by class", "", of_contacts(hits)},
       {"path_length_m", "m", "way driven", "", as_summed("path_length")},
       {"first_path_length_m", "m", "of the first path, if the goal was not changed", "",
        field_of(route_of, "first_path_length")},
@@ -345,9 +357,11 @@ std::vector<Figure> all_figures() {
       {"mover_proximity_count", "", "times that a worker or vehicle came within 5 m", "",
        counts(is_near_mover)},
       {"least_gap_m", "m", "from the hull to anything", "", value(least_gap, 2)},
-      {"late_warnings", "", "contacts with movers that were felt < 3 s or named < 2 s before", "",
-       late_warnings},
-      {"warned", "", "s felt/named before each contact with a mover", "", warned},
+      {"late_warnings", "",
+       "contacts with movers that were felt < 3 s or named < 2 s before; known in English only", "",
+       of_contacts(in_english(tracked(late_warnings)))},
+      {"warned", "", "s felt/named before each contact with a mover; known in English only", "",
+       of_contacts(in_english(warned))},
       {"stuck_count", "", "times that a cue reports being stuck", "", counts("STUCK")},
       {"replan_count", "", "times that the path was searched again", "",
        last("REPLAN", "count", "0")},
@@ -365,15 +379,16 @@ std::vector<Figure> all_figures() {
       {"cues_spoken", "", "sentences", "", as_summed("cues_spoken")},
       {"sounds_played", "", "short sounds", "", sounds_played},
       {"patterns_felt", "", "patterns of the motors", "", as_summed("patterns_felt")},
-      {"cues_per_min", "1/min", "sentences", "", value(cues_per_minute, 1)},
-      {"words_per_min", "1/min", "words", "", value(words_per_minute, 1)},
+      {"cues_per_min", "1/min", "sentences", "", per_minute(&Speech::cues)},
+      {"words_per_min", "1/min", "words", "", per_minute(&Speech::words)},
       {"talk", "", "share of the time in which something is said", "", value(talk)},
       {"repeats", "", "times that a sentence was said again within 10 s, unasked", "",
        said(&Speech::repeats)},
       {"waits", "", "unasked words to wait or stop", "", said(&Speech::waits)},
       {"hasty", "", "of these, followed by another sentence within 2 s", "", said(&Speech::hasty)},
-      {"at_odds", "", "times that straight on and a thing ahead were said within 2 s", "",
-       said(&Speech::at_odds)},
+      {"at_odds", "",
+       "times that straight on and a thing ahead were said within 2 s; known in English only", "",
+       in_english(said(&Speech::at_odds))},
       {"turns_per_min", "1/min", "changes of the announced hour", "", turns_per_minute},
       {"flips", "", "directions that contradict the one just before", "",
        directed(&Directions::flips)},

@@ -137,8 +137,8 @@ TEST(Figures, are_as_counted_by_hand) {
       {"shelf_proximity_count", "1"},
       {"mover_proximity_count", "1"},
       {"least_gap_m", "0.42"},
-      {"late_warnings", "1"},  // felt for 1 s only
-      {"warned", "1.0/3.0"},   // "worker" was said at 137 s, the contact is at 140 s
+      {"late_warnings", "1"},  // no motor turned while it was near, from 139 s on
+      {"warned", "0.0/3.0"},   // "worker" was said at 137 s, the contact is at 140 s
       {"stuck_count", "1"},
       {"replan_count", "4"},
       {"reroute_count", "2"},
@@ -194,10 +194,31 @@ TEST(Figures, of_a_record_without_a_track_are_not_known_where_they_need_one) {
   Made trial = minute();
   trial.track.clear();
   auto summary = columns(trial);
-  for (const char* name : {"least_gap_m", "flips", "turns_per_min", "led_turns", "residual_deg",
-                           "cue_to_action_s", "motors", "speechless", "still_s", "still_about"})
+  for (const char* name :
+       {"least_gap_m", "late_warnings", "warned", "flips", "turns_per_min", "led_turns",
+        "residual_deg", "cue_to_action_s", "motors", "speechless", "still_s", "still_about"})
     EXPECT_EQ(summary[name], "n/a") << name;
   EXPECT_EQ(summary["waits"], "1");
+}
+
+TEST(Figures, tell_how_long_a_motor_had_turned_while_the_thing_was_near_that_was_hit) {
+  Made trial = minute();
+  for (const auto& [near, warned] : {std::pair{30.0, "20.0/3.0"}, {15.0, "15.0/3.0"}}) {
+    for (Row& row : trial.rows)
+      if (row.type == "COLLISION" && row.fields.get("class") == "worker")
+        row.fields = Fields().set("class", "worker").set("felt", near);
+    EXPECT_EQ(columns(trial)["warned"], warned);
+    EXPECT_EQ(columns(trial)["late_warnings"], "0");
+  }
+}
+
+TEST(Figures, of_words_are_not_known_in_another_language) {
+  Made trial = minute();
+  trial.rows.front().fields = Fields().set("phrases", "es.yaml");
+  auto summary = columns(trial);
+  for (const char* name : {"late_warnings", "warned", "at_odds"})
+    EXPECT_EQ(summary[name], "n/a") << name;
+  EXPECT_EQ(summary["repeats"], "1");
 }
 
 TEST(Figures, compare_no_way_with_the_path_to_a_goal_that_was_changed) {
@@ -259,8 +280,10 @@ TEST(Summary, where_nothing_tells_of_contacts_they_are_unknown_and_not_0) {
     trial.add(100.0, "TRIAL_START", Fields().set("contacts", contacts));
     auto summary = columns(trial);
     const bool counted = contacts == std::string("counted");
-    EXPECT_EQ(summary["shelf_collision_count"], counted ? "0" : "unknown");
-    EXPECT_EQ(summary["obstacle_collision_count"], counted ? "0" : "unknown");
+    EXPECT_EQ(summary["contacts"], counted ? "0" : "unknown");
+    for (const char* name : {"shelf_collision_count", "obstacle_collision_count", "hits",
+                             "contacts_per_100m", "late_warnings", "warned"})
+      EXPECT_EQ(summary[name] == "unknown", !counted) << name;
   }
 }
 
