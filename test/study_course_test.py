@@ -14,7 +14,7 @@ from small_study import Driver, begin, exclusion, frozen, rehearsed, rest, small
 from navvi_cli import workspace
 from navvi_cli.commands import study as command
 from navvi_cli.say import fail
-from navvi_study import actions, export, journal, measures, overview, runner, session, study, table
+from navvi_study import actions, export, journal, measures, overview, report, runner, session, study, table
 from navvi_study.analysis import Analysis
 from navvi_study.errors import StudyError
 from sessions import ROOT, eventually
@@ -308,6 +308,7 @@ def test_a_journal_of_before_whose_rules_wrote_rows_of_their_own_is_read(work):
     work.study.journal.append("end", **trial, trial="trial-1", result="aborted", collisions=None, sums={})
     work.study.journal.append("exclude", **trial, trial="trial-1", reason="drop-out: ended by the person", rule=True, replace=False, drop_out=True)
     attempt = work.study.progress().person("sub-01").attempts[0]
+    assert (attempt.phase, attempt.condition, attempt.order, attempt.session, attempt.repeat) == ("trial", "full", 1, 1, 1), "as its step is now"
     assert (attempt.counts, attempt.dropped_out, attempt.final, attempt.excluded_by) == (False, True, True, "rule")
 
 
@@ -384,6 +385,39 @@ def test_an_exclusion_promises_another_world_only_where_one_comes(tmp_path, caps
     driven = len(begun.runner.driven)
     begun.next("sub-01")
     assert ("Another world takes its place." in capsys.readouterr().out) == comes == (len(begun.runner.driven) > driven)
+
+
+PAIR = "conditions: {full: {picture: false}, plain: {picture: false, touch: false}}"
+MOVES = {
+    "a code ahead": (("sub-01..sub-04", "sub-00..sub-04"),), "one order": (("limit: 60", "limit: 60\norder: listed"),),
+    "two sessions": (("limit: 60", "limit: 60\nsessions: 2"),),
+    "a third condition": ((PAIR, PAIR[:-1] + ", third: {sounds: false}}"), ("seeds: [2]}", "seeds: [2]}, c: {world: easy, seeds: [5]}")),
+    "another name": ((PAIR, PAIR.replace("plain", "bare")), ("[plain, full]", "[bare, full]"))}
+
+
+@pytest.mark.parametrize("change", MOVES)
+def test_no_plan_moves_a_trial_that_was_driven(work, tmp_path, change):
+    for name in "sub-01", "sub-02":
+        rest(work(), name)
+    rows, report_of = table.trials(work.study, work.study.progress()), report.trials(work.study.progress())
+    other = study.Study(small(tmp_path, *MOVES[change]))
+    with pytest.raises(StudyError, match="sub-0[12] has driven s1-c[12]-trial-1 in (full|plain), and the plan has s[12]-c[123]-trial-1 in "):
+        other.freeze("test", "a change")
+    assert len(other.progress().freezes) == 1 and table.trials(other, other.progress()) == rows, "also before a plan is frozen"
+    assert {tuple(row) for row in report_of if row[1]} <= {tuple(row) for row in report.trials(other.progress())}
+    assert report.page(other, other.progress(), rehearsed=False)
+
+
+def test_a_plan_may_have_more_people_and_fewer_worlds_and_no_one_less_who_has_begun(tmp_path):
+    kept = frozen(tmp_path, ("seeds: [1]", "seeds: [1, 5]"), ("seeds: [2]", "seeds: [2, 6]"))
+    rest(begin(kept))
+    rows = table.trials(kept, kept.progress())
+    other = study.Study(small(tmp_path, ("sub-01..sub-04", "sub-01..sub-06")))
+    other.freeze("test", "shorter sessions")
+    assert table.trials(other, other.progress()) == rows and [row["repeat"] for row in rows] == ["1", "2"] * 2
+    assert report.page(other, other.progress(), rehearsed=False) and rest(begin(other)) == []
+    with pytest.raises(StudyError, match="sub-01 has begun, and the plan has no such participant any more"):
+        study.Study(small(tmp_path, ("sub-01..sub-04", "sub-02..sub-04")))
 
 
 def test_a_trial_is_excluded_whose_step_the_plan_has_no_more(tmp_path, capsys):

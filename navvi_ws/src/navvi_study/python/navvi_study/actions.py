@@ -208,7 +208,7 @@ def withdraw(args):
 
     Deleted are trials, answers, notes and settings, and the study's tables, figures,
     reports and export, which hold them too; the journal keeps, by the code, times,
-    results, collisions, consent, practice mastered and reasons of exclusions.
+    conditions, results, collisions, consent, practice mastered and reasons of exclusions.
 
     Exit codes
     0: written. 2: not planned, or withdrawn before.

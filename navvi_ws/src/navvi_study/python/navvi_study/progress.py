@@ -1,4 +1,5 @@
 """How far the study is: a pure function of plan and journal."""
+import itertools
 from dataclasses import dataclass, field
 
 from .errors import StudyError
@@ -12,6 +13,11 @@ class Attempt:
     number: int  # from 1
     world: str
     seed: int
+    phase: str = "n/a"  # kind of its step, as it was planned then, like the next four; n/a in journals of before where the plan has no such step
+    condition: str = "n/a"
+    order: int = 0
+    session: int = 0
+    repeat: int = 0
     seq: int = 0  # of the journal's row with which it began
     ended: bool = False
     trial: str = ""  # its folder's name; empty where no trial began
@@ -63,10 +69,18 @@ class Participant:
         return bool(asked) and asked[-1].get("given") is False
 
 
+def lettered(letters, condition):
+    """The condition's letter where there are any; n/a of one that the plan has no more."""
+    return letters.get(condition, "n/a") if letters else condition
+
+
 class Progress:
-    def __init__(self, plan, rows):
-        self.plan = plan
+    def __init__(self, plan, rows, letters=None):
+        """\\param letters  in place of the names that conditions have in the rows, where the plan is blinded"""
+        self.plan, self.letters = plan, letters
         self.people = {name: Participant(name, steps_of(plan, name)) for name in plan.participants}
+        if gone := sorted({row["participant"] for row in rows if row.get("participant", "") not in {"", *self.people}}):
+            raise StudyError(f"{plan.file}: {gone[0]} has begun, and the plan has no such participant any more; put the code back where it was.")
         self.freezes, self.analyses, self.losses = ([row for row in rows if row["type"] == kind] for kind in ("freeze", "analysis", "loss"))
         for row in rows:
             if row["type"] not in ("freeze", "analysis", "loss"):
@@ -112,13 +126,25 @@ class Progress:
             raise StudyError(f"\"{trial}\" names {len(found)} trials of this study; allowed is a trial's name from \"study status\", such as sub-01/trial-20260101T120000Z.")
         return found[0]
 
+    def moved(self):
+        """A sentence for each trial that was driven in another condition than the plan has for it now, or is planned once more."""
+        for person in self.kept:
+            driven = [one for one in person.attempts if one.phase != "n/a" and (one.trial or not one.ended)]
+            for attempt, step in itertools.product(driven if not person.excluded else (), person.steps):
+                same = (step.kind, step.condition, step.repeat) == (attempt.phase, attempt.condition, attempt.repeat)
+                if same != (step.name == attempt.step):
+                    yield f"{person.name} has driven {attempt.step} in {attempt.condition}, and the plan has {step.name} in {step.condition}"
+
     def _attempt(self, row):
         return next(attempt for attempt in self.people[row["participant"]].attempts
                     if (attempt.step, attempt.number) == (row["step"], row["attempt"]))
 
     def _begin(self, row):
-        self.people[row["participant"]].attempts.append(Attempt(
-            row["step"], row["attempt"], row["world"], row["seed"], row["seq"], replaces=row["replaces"]))
+        person = self.people[row["participant"]]
+        place = step.place if (step := person.step(row["step"])) else {}
+        if "phase" in row:  # not in journals of before
+            place = {**{name: row[name] for name in ("phase", "order", "session", "repeat")}, "condition": lettered(self.letters, row["condition"])}
+        person.attempts.append(Attempt(row["step"], row["attempt"], row["world"], row["seed"], seq=row["seq"], replaces=row["replaces"], **place))
 
     def _end(self, row):
         attempt = self._attempt(row)

@@ -63,7 +63,7 @@ def opening(progress):
     if progress.plan.order == "drawn":
         drawn = (f" Orders were drawn by the seed {progress.plan.seed}, whose SHA-256 is in the journal since then." if progress.over else
                  " Orders are drawn by a seed that is printed here once nobody is left to begin.")
-    begun = [attempt.seq for *_, attempt in driven(progress, "trial")]
+    begun = [attempt.seq for _, attempt in driven(progress, "trial")]
     blind = "".join(f" Conditions were letters until {row['utc'][:10]}, when the blinded report had the SHA-256 {row['report']}; "
                     + (f"not all participants were through, for the reason \"{row['reason']}\"; " if row.get("reason") else "")
                     + f"trials after that: {sum(seq > row['seq'] for seq in begun)}." for row in progress.analyses)
@@ -104,11 +104,11 @@ def people(progress):
 
 def trials(progress):
     """A row a condition: what came of its trials."""
-    rows = {condition.name: [0] * 6 for condition in progress.plan.conditions}
-    for person, step, attempt in driven(progress, "trial"):
+    rows = collections.defaultdict(lambda: [0] * 6, {condition.name: [0] * 6 for condition in progress.plan.conditions})
+    for person, attempt in driven(progress, "trial"):
         kind = 4 if person.excluded else 3 if attempt.dropped_out else 4 if not attempt.counts else 1 if attempt.result == "reached" else 2
         for at in (0, kind):
-            rows[step.condition][at] += 1
+            rows[attempt.condition][at] += 1
     for person in progress.kept:
         for step in progress.missing(person):
             rows[step.condition][5] += 1
@@ -126,8 +126,8 @@ def legs(study, progress):
 
 
 def driven(progress, kind):
-    """(person, step, attempt) of each trial of that kind of step, of those who have not withdrawn their data."""
-    return [(person, step, attempt) for person in progress.kept for step in person.steps if step.kind == kind for attempt in person.of(step) if attempt.trial]
+    """(person, attempt) of each trial of that kind of step, of those who have not withdrawn their data."""
+    return [(person, attempt) for person in progress.kept for attempt in person.attempts if attempt.phase == kind and attempt.trial]
 
 
 def besides(progress):
@@ -279,8 +279,9 @@ def answered(study, progress):
             given[row["questionnaire"], row["item"], row["condition"]].append(row)
     parts = []
     for asked in progress.plan.asked:
-        names = [condition.name for condition in progress.plan.conditions] + ["n/a"]
-        conditions = sorted({condition for name, _, condition in given if name == asked.name}, key=names.index)
+        here = {condition for name, _, condition in given if name == asked.name}
+        planned = [condition.name for condition in progress.plan.conditions]
+        conditions = sorted(here, key=lambda name: (name == "n/a", planned.index(name) if name in planned else len(planned), name))
         if conditions:
             rows = [[item.ask, *[answers_in_words(item, given[asked.name, item.name, condition]) for condition in conditions]] for item in asked.items]
             parts.append({"title": asked.title, "conditions": [name if name != "n/a" else "Answer" for name in conditions], "rows": rows})

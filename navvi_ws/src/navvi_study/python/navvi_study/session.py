@@ -4,6 +4,7 @@ from .journal import sum_of
 from .measures import number
 from .plan import BROKEN_OFF
 from .record import summary_of
+from .steps import kind_of
 
 WHOLE = ("reached", "timeout")  # results of a leg after which a job goes on
 DAMAGED = {"result": "invalid", "reason": "summary_damaged", "elapsed_s": "n/a"}  # in place of a summary
@@ -83,7 +84,7 @@ class Session:
 
     def _dropped_out(self, name, attempt, row):
         """Who ended a trial before goal and limit; empty where nobody did, and in practice, which goes on."""
-        if row["result"] != "aborted" or not self.study.progress().person(name).step(attempt.step).drop_out:
+        if row["result"] != "aborted" or not kind_of(attempt).drop_out:
             return ""
         ended = any((note["step"], note["attempt"], note["type"]) == (attempt.step, attempt.number, "abort") for note in self.study.notes(name))
         return "person" if row.get("reason") == "ended_by_person" else "experimenter" if ended else ""

@@ -17,7 +17,7 @@ from . import plan_file
 from .errors import StudyError
 from .journal import Journal, append_line, lines_of, read_lines, sync_folder, utc_now
 from .plan import Group
-from .progress import Progress
+from .progress import Progress, lettered
 from .questionnaire import DECLINED
 from .record import summary_of
 from .schedule import steps_of
@@ -44,10 +44,13 @@ class Study:
         return cls(plan_file.load(file))
 
     def progress(self):
-        found = Progress(self.plan, self.journal.rows() if self.journal.path.exists() else [])
+        found = self._progress(self.plan)
         if found.freezes and found.freezes[-1].get("allocation", self._allocation()) != self._allocation():
             raise StudyError(f"{self.seed_file} is missing or changed since the plan was frozen, and nobody's order is known without it; restore it from a copy.")
         return found
+
+    def _progress(self, plan):
+        return Progress(plan, self.journal.rows() if self.journal.path.exists() else [], self.letters)
 
     def unrecorded(self):
         """A sentence by name for the last row, where the journal has lost it, and for each record on the disk without its row, unless that was
@@ -103,8 +106,12 @@ class Study:
             raise StudyError("the plan was frozen before; a change needs --reason. It is:\n  " + "\n  ".join(changes))
         number = len(self.progress().freezes) + 1
         file = self.folder / ("frozen.json" if number == 1 else f"frozen-{number}.json")
-        if self.plan.order == "drawn" and not self.plan.seed:
-            self.plan = dataclasses.replace(self.plan, seed=secrets.token_hex(16))
+        draw = self.plan.order == "drawn" and not self.plan.seed
+        plan = dataclasses.replace(self.plan, seed=secrets.token_hex(16)) if draw else self.plan
+        if moved := next(self._progress(plan).moved(), None):
+            raise StudyError(f"{moved}; allowed is a plan in which trials that were driven stay where they are. New codes go to the end of a group.")
+        if draw:
+            self.plan = plan
             write_safely(self.seed_file, self.plan.seed + "\n")
         write_safely(file.with_suffix(".next"), json.dumps({"hash": self.plan.hash(), "plan": self.plan.values()}, indent=1) + "\n")
         self.journal.append("freeze", plan=self.plan.hash(), version=version, reason=reason or "", changes=changes or [],
@@ -214,7 +221,7 @@ class Study:
         return hashlib.sha256(json.dumps([row for row in rows if row["step"] == step], sort_keys=True).encode()).hexdigest()
 
     def answers(self, participant):
-        return [{**{name: cell for name, cell in row.items() if name != "salt"}, "condition": self.letters.get(row["condition"], row["condition"])}
+        return [{**{name: cell for name, cell in row.items() if name != "salt"}, "condition": lettered(self.letters, row["condition"])}
                 for row in self.lines(participant, "answers")[0]]
 
     def agreed(self, participant, item):

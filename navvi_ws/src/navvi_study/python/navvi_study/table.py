@@ -6,7 +6,7 @@ import subprocess
 
 from .measures import DROP_OUT
 from .record import Record
-from .steps import KINDS
+from .steps import KINDS, kind_of
 from .study import write_safely
 
 # Set by the study; the others are those of each trial's summary.csv.
@@ -52,11 +52,11 @@ def trials(study, progress, strict=True):
         for attempt in person.attempts:
             if not attempt.trial or person.withdrawn == "delete":
                 continue
-            step, places = person.step(attempt.step), progress.plan.places(attempt)
+            places = progress.plan.places(attempt)
             mine = [note for note in notes if (note["step"], note["attempt"]) == (attempt.step, attempt.number)]
-            whole = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": step.session, "order": step.order,
-                   "condition": step.condition, "phase": step.kind, "repeat": step.repeat, "attempt": attempt.number,
-                   "counts": _counts(person, step, attempt),
+            whole = {"participant": person.name, "group": progress.plan.group_of(person.name).name, "session": attempt.session,
+                   "order": attempt.order, "condition": attempt.condition, "phase": attempt.phase, "repeat": attempt.repeat,
+                   "attempt": attempt.number, "counts": _counts(person, attempt),
                    **described_by, "excluded": person.excluded or attempt.excluded or "n/a", "excluded_by": attempt.excluded_by or "n/a",
                    "replaces": attempt.replaces or "n/a", "marks": len([note for note in mine if note["type"] in ("mark", "note")]),
                      "interventions": len([note for note in mine if note["type"] == "intervention"])}
@@ -77,8 +77,8 @@ def about(study, person):
     return {f"person_{item.name}": given.get((one.name, item.name), "n/a") for one in study.plan.steps["at_begin"] for item in one.items}
 
 
-def _counts(person, step, attempt):
-    if not step.counts or person.excluded:
+def _counts(person, attempt):
+    if person.excluded or not kind_of(attempt).counts:
         return "no"
     return "yes" if attempt.counts else DROP_OUT if attempt.dropped_out else "no"
 
@@ -109,9 +109,9 @@ def events_of(study, participant, attempt, trial):
 
 def attempt_of(progress, row):
     """The attempt that a row of trials() is about."""
-    person = progress.people[row["participant"]]
-    steps = [step.name for step in person.steps if (step.condition, str(step.repeat), step.kind) == (row["condition"], row["repeat"], row["phase"])]
-    return next(one for one in person.attempts if row["trial"] in one.legs and str(one.number) == row["attempt"] and one.step in steps)
+    place = [row[name] for name in ("phase", "condition", "repeat", "attempt")]
+    return next(one for one in progress.people[row["participant"]].attempts
+                if row["trial"] in one.legs and [one.phase, one.condition, str(one.repeat), str(one.number)] == place)
 
 
 def answers(study, progress):

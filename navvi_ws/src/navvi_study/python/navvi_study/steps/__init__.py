@@ -6,7 +6,7 @@ from .practice import Practice
 from .probe import Probe
 from .questions import Questions
 from .session_end import SessionEnd
-from .trial import Trial
+from .trial import Driven, Trial
 
 ORDER = {
     "begin": (Consent, Questions, Calibrate, Practice),  # of a session
@@ -14,3 +14,8 @@ ORDER = {
     "end": (Questions, SessionEnd),  # of a session
 }
 KINDS = tuple(dict.fromkeys(kind for kinds in ORDER.values() for kind in kinds))
+
+
+def kind_of(attempt):
+    """The class of the step that it was for, also where the plan has no such step any more."""
+    return next((kind for kind in KINDS if kind.kind == attempt.phase), Driven)

@@ -49,7 +49,7 @@ class Practice(Driven):
 
     def world_for(self, progress, person):
         worlds = progress.plan.steps["practice"].worlds
-        return worlds[sum(bool(attempt.trial) and person.step(attempt.step).kind == self.kind for attempt in person.attempts) % len(worlds)]
+        return worlds[sum(bool(attempt.trial) and attempt.phase == self.kind for attempt in person.attempts) % len(worlds)]
 
     def mastered(self, wanted, person):
         """Whether the practice is over: True by its criterion, False where all tries are used up, None while it goes on."""

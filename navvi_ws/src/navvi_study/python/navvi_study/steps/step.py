@@ -77,6 +77,11 @@ class Step:
         """Minutes where the plan says nothing."""
         return cls.usual or 0.0
 
+    @property
+    def place(self):
+        """In the course of the participant; an attempt keeps it, as the plan may change."""
+        return {"phase": self.kind, "condition": self.condition, "order": self.order, "session": self.session, "repeat": self.repeat}
+
     def __str__(self):
         return self.words.format(self)
 

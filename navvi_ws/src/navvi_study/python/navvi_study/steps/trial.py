@@ -21,7 +21,8 @@ class Driven(Step):
         study, before, world = session.study, person.of(self), self.world_for(progress, person)
         replaces = next((attempt.trial for attempt in reversed(before) if attempt.trial), "")
         number = len(before) + 1
-        study.journal.append("begin", participant=person.name, step=self.name, attempt=number, world=world.world, seed=world.seed, replaces=replaces)
+        study.journal.append("begin", participant=person.name, step=self.name, attempt=number, world=world.world, seed=world.seed, replaces=replaces,
+                             **self.place)
         attempt, folder = study.progress().person(person.name).open, study.attempt_folder(person.name, self.name, number)
         if folder.exists():  # it was driven, and the journal has lost its rows
             session.runner.close(folder)
