@@ -85,7 +85,7 @@ def freeze(args):
     print(f"navvi: the plan is frozen: {study.plan.hash()}")
     for change in changes or []:
         print(f"  changed: {change}")
-    print("\n".join(overview.broken_off(study.plan)))
+    print("\n".join([*overview.broken_off(study.plan), *overview.judged_otherwise(study, study.progress())]))
     print(f"navvi: written: {preregistration.write(study)}")
 
 

@@ -1,6 +1,6 @@
 """What `study check` and `study status` print: plain lines, for a screen reader as well."""
 from .schedule import minutes_of, order_of, orders_of, steps_of
-from .session import why_nothing
+from .session import WHOLE, why_nothing
 
 
 def schedule(plan):
@@ -87,6 +87,19 @@ def status(study, progress):
     begun = sum(person.begun for person in progress.people.values())
     frozen = f"frozen {counted(len(progress.freezes), 'time')}" if progress.freezes else "not frozen"
     lines.append(f"{plan.study}: {begun} of {len(plan.participants)} have begun, {complete} have completed; the plan is {frozen}.")
+    return lines
+
+
+def judged_otherwise(study, progress):
+    """A sentence for each trial that the plan's exclusions judge otherwise than those when it ended."""
+    lines = []
+    for person, attempt in ((person, one) for person in progress.kept if not person.excluded for one in person.attempts):
+        name = f"{person.name}/{attempt.trial}"
+        reason = study.plan.reason_against([study.summary(person.name, attempt, leg, strict=False) for leg in attempt.legs])
+        if attempt.counts and reason:
+            lines.append(f"{name} counts, and by the plan of now it does not: ./navvi study exclude {study.plan.file} {name} --reason \"{reason}\"")
+        elif attempt.excluded_by == "rule" and attempt.result in WHOLE and not reason:
+            lines.append(f"{name} does not count, and by the plan of now it would: {attempt.excluded}.")
     return lines
 
 

@@ -142,6 +142,10 @@ class Plan:
     def condition(self, name):
         return next(condition for condition in self.conditions if condition.name == name)
 
+    def reason_against(self, rows):
+        """Why a trial does not count, by the summaries of its legs; empty where it does."""
+        return next((rule.reason for rule in (*self.exclusions, *BROKEN_OFF) if any(map(rule.meets, rows))), "")
+
     def group_of(self, participant):
         for group in self.groups:
             if participant in group.participants:

@@ -314,6 +314,7 @@ def quality(study, progress):
             ["bags", ", ".join(f"{state} {count}" for state, count in bags.items()) or "none"],
             ["versions of NavVI", ", ".join(f"{version} {count}" for version, count in versions.items()) or "none"],
             ["trials whose tables changed since they ended", verify.changed(study, progress)],
+            ["trials that the exclusions of now judge otherwise than those when they ended", len(overview.judged_otherwise(study, progress))],
             ["rows that the journal has lost", " ".join(overview.losses(progress)) or "none"],
             ["lines of notes and answers that cannot be read", sum(len(study.unread(name)) for name in progress.people)],
             ["interventions", shown(total("interventions"))], ["marks and notes", shown(total("marks"))],

@@ -2,7 +2,6 @@
 from .errors import StudyError
 from .journal import sum_of
 from .measures import number
-from .plan import BROKEN_OFF
 from .record import summary_of
 from .steps import kind_of
 
@@ -79,7 +78,7 @@ class Session:
         """Why a trial does not count, as fields of its end: after a crash between two rows it would count."""
         if who := self._dropped_out(name, attempt, rows[-1]):
             return {"excluded": f"drop-out: ended by the {who}", "drop_out": True}
-        reason = next((rule.reason for rule in (*self.study.plan.exclusions, *BROKEN_OFF) if any(map(rule.meets, rows))), "")
+        reason = self.study.plan.reason_against(rows)
         return {"excluded": reason, "drop_out": False} if reason else {}
 
     def _dropped_out(self, name, attempt, row):
