@@ -449,6 +449,14 @@ def test_practice_goes_on_until_its_criterion_or_its_end(tmp_path, capsys):
     assert "does not count: the phone rang.\n" in capsys.readouterr().out, "nothing is driven in its place"
 
 
+def test_a_practice_trial_that_the_experimenter_excludes_is_no_try(tmp_path):
+    kept = frozen(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 1, collisions_at_most: 3, most: 2}\nlimit: 60"))
+    begin(kept, "timeout").next("sub-01")
+    actions.exclude(exclusion(kept, "sub-01/trial-1", "a siren"))
+    begun = begin(kept, "aborted", "timeout")
+    assert [begun.next("sub-01").kind for _ in range(3)] == ["practice", "practice", "trial"], "one that broke off is a try"
+
+
 def test_practice_that_was_over_when_a_crash_came_goes_no_further(tmp_path, monkeypatch):
     kept = frozen(tmp_path, ("limit: 60", "practice: {worlds: {world: training, seeds: 1..2}, in_a_row: 1, collisions_at_most: 3, most: 2}\nlimit: 60"))
     crash_after_the_end(begin(kept, "reached"), monkeypatch)

@@ -53,7 +53,7 @@ class Practice(Driven):
 
     def mastered(self, wanted, person):
         """Whether the practice is over: True by its criterion, False where all tries are used up, None while it goes on."""
-        tries = [attempt for attempt in person.of(self) if attempt.trial]
+        tries = [attempt for attempt in person.of(self) if attempt.trial and attempt.excluded_by in ("", "rule")]
         good = [attempt.result == "reached" and attempt.collisions is not None and attempt.collisions <= wanted.collisions for attempt in tries]
         if len(good) >= wanted.in_a_row and all(good[-wanted.in_a_row:]):
             return True
