@@ -119,22 +119,24 @@ def test_D5_who_ends_a_trial_is_a_drop_out_and_drives_in_no_easier_world(tmp_pat
     kept = frozen(tmp_path, ("sub-01..sub-04", "sub-01..sub-06"), *([] if exclusions else [(RULE, "")]))
 
     class GivingUp(Driver):
-        """The person ends a trial of sub-01, and the experimenter one of sub-02; one of sub-03 breaks off by itself."""
+        """The person ends a trial of sub-01, and the experimenter one of sub-02; one of sub-03 breaks off by itself, and in one of sub-04 the
+        experimenter saw that it would."""
         def trial(self, participant, step, attempt, folder, lock):
-            ends = participant in ("sub-01", "sub-02", "sub-03") and step.condition == "plain" and attempt.number == 1
-            if participant == "sub-02" and ends:
+            ends = participant in ("sub-01", "sub-02", "sub-03", "sub-04") and step.condition == "plain" and attempt.number == 1
+            if participant in ("sub-02", "sub-04") and ends:
                 kept.note(participant, attempt, {"utc": "", "mono_ns": 1, "type": "abort", "text": ""})
-            reason = {"sub-01": "ended_by_person", "sub-02": "stopped_by_signal"}.get(participant, "goal_changed")
+            reason = {"sub-01": "ended_by_person", "sub-02": "stopped_by_signal", "sub-04": "guidance_lost"}.get(participant, "goal_changed")
             self.driven.append((participant, attempt.seed))
             write_summary(folder / f"trial-{len(self.driven)}", "aborted" if ends else "reached", reason=reason if ends else "n/a")
     driver = GivingUp(kept)
     said = []
     for name in kept.plan.participants:
         rest(session.Session(kept, driver, say=said.append, wait=False), name)
-    assert [seed for name, seed in driver.driven if seed > 10] == [11], "a world of the reserve for sub-03 alone"
+    assert [seed for name, seed in driver.driven if seed > 10] == [11, 11], "a world of the reserve for sub-03 and sub-04"
     rows = table.trials(kept, kept.progress())
     assert [row["counts"] for row in rows if row["participant"] in ("sub-01", "sub-02") and row["condition"] == "plain"] == ["drop-out"] * 2
-    assert [row["counts"] for row in rows if row["participant"] == "sub-03" and row["condition"] == "plain"] == ["no", "yes"]
+    for name in "sub-03", "sub-04":
+        assert [row["counts"] for row in rows if row["participant"] == name and row["condition"] == "plain"] == ["no", "yes"]
     assert {row["excluded_by"] for row in rows if row["counts"] == "drop-out"} == {"rule"}
     assert sum("a drop-out, ended by the" in line and line.endswith("if one is left.") for line in said) == 2 and kept.progress().missing(kept.progress().person("sub-01")) == []
     lines = overview.status(kept, kept.progress())

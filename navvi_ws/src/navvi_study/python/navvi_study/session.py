@@ -86,7 +86,8 @@ class Session:
         if row["result"] != "aborted" or not kind_of(attempt).drop_out:
             return ""
         ended = any((note["step"], note["attempt"], note["type"]) == (attempt.step, attempt.number, "abort") for note in self.study.notes(name))
-        return "person" if row.get("reason") == "ended_by_person" else "experimenter" if ended else ""
+        # Any other reason is a fault of the machine; between two places of a job nobody knows one.
+        return "person" if row["reason"] == "ended_by_person" else "experimenter" if ended and row["reason"] in ("stopped_by_signal", "n/a") else ""
 
     def done(self, name, step, **fields):
         """The step is over. Returns True."""
