@@ -288,6 +288,28 @@ def test_a_probe_whose_trial_does_not_count_is_driven_again_before_it_is_asked(p
     assert len([row for row in begun.study.answers("sub-01") if row["step"] == "s1-c1-probe"]) == 3
 
 
+def test_answers_about_a_probe_that_is_driven_again_are_given_again_and_the_first_are_in_no_result(probed):
+    begun = probed("reached", "timeout")
+    kept, asked, ask = begun.study, [], begun.runner.ask
+
+    def ask_first(participant, step, items, answered, lock):
+        asked.append([item.name for item in items])
+        return answered(items[0], "90") if len(asked) == 1 else ask(participant, step, items, answered, lock)
+    begun.runner.ask = ask_first
+    for _ in range(2):
+        begun.next("sub-01")
+    actions.exclude(exclusion(kept, "sub-01/trial-2", "a siren"))
+    assert table.answers(kept, kept.progress()) == []
+    rest(begun)
+    assert asked[:2] == [["goal", "start", "left"]] * 2
+    rows = [row for row in table.answers(kept, kept.progress()) if row["step"] == "s1-c1-probe"]
+    assert [(row["item"], row["answer"], row["attempt"]) for row in rows] == [("goal", "-10", "2"), ("start", "170", "2"), ("left", "wall", "2")]
+    assert [row["score"] for row in table.scores(kept, kept.progress()) if row["questionnaire"] == "probe"] == [31.5, 31.5]
+    path = kept.home("sub-01") / "answers.jsonl"
+    path.write_text("".join(line.replace(', "attempt": 2', "") for line in path.read_text().splitlines(keepends=True) if '"attempt": 1' not in line))
+    assert len([row for row in table.answers(kept, kept.progress()) if row["step"] == "s1-c1-probe"]) == 3, "those of before name no attempt"
+
+
 def test_where_the_robot_stands_at_the_place_or_the_record_does_not_know_nothing_is_true(tmp_path):
     probe_of, folder = questionnaire.find("probe", EXAMPLE.parent), tmp_path / "trial"
     folder.mkdir()

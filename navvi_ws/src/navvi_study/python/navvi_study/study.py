@@ -206,14 +206,17 @@ class Study:
     def _lock(self, participant):
         return self.folder / f".{participant}.lock"
 
-    def add_answer(self, participant, step, item, answer, seconds="n/a"):
+    def add_answer(self, participant, step, about, item, answer, seconds="n/a"):
+        """\\param about  the attempt whose trial the question is about; None where it is about none"""
         append_line(self.home(participant) / "answers.jsonl", {
             "step": step.name, "condition": step.condition, "order": step.order, "session": step.session, "questionnaire": step.asks.name,
-            "item": item.name, "answer": answer, "seconds": seconds, "utc": utc_now(), "salt": secrets.token_hex(8)})
+            "item": item.name, "answer": answer, "seconds": seconds, "utc": utc_now(), "salt": secrets.token_hex(8),
+            **({"attempt": about.number} if about else {})})
 
     def answers_of(self, participant, step):
         """By item's name."""
-        return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name}
+        person = self.progress().person(participant)
+        return {row["item"]: row["answer"] for row in self.answers(participant) if row["step"] == step.name and step.holds(person, row)}
 
     def sum_of_answers(self, participant, step):
         """SHA-256 of the answers to a step, by its name. Without their salt, which is erased with them, nobody guesses the answers by it."""

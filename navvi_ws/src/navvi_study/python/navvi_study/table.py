@@ -115,14 +115,17 @@ def attempt_of(progress, row):
 
 
 def answers(study, progress):
-    """Rows by column name. Answers of a probe have what was true besides: truth, and error_deg or correct."""
+    """Rows by column name. Answers of a probe are those about its trial that counts, and have what was true besides: truth, and error_deg or
+    correct."""
     rows = []
     for person in progress.people.values():
         if person.withdrawn == "delete":
             continue
         for row in study.answers(person.name):
-            rows.append({"participant": person.name, "group": progress.plan.group_of(person.name).name, **{name: str(cell) for name, cell in row.items()},
-                         **(step.truth(study, person, row) if (step := person.step(row["step"])) else {})})
+            step = person.step(row["step"])
+            if not step or step.holds(person, row):
+                rows.append({"participant": person.name, "group": progress.plan.group_of(person.name).name,
+                             **{name: str(cell) for name, cell in row.items()}, **(step.truth(study, person, row) if step else {})})
     return rows
 
 

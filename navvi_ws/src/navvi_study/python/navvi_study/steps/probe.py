@@ -65,21 +65,24 @@ class Probe(Driven):
 
     def run(self, session, progress, person, lock):
         """One that does not count is driven again, as long as a world is left."""
-        if not any(attempt.counts for attempt in person.of(self)):
+        if not self.asks_of(person):
             if self.given_up(progress, person):
                 return session.done(person.name, self)
             if not super().run(session, progress, person, lock):
                 return False
-            if not any(attempt.counts for attempt in session.study.progress().person(person.name).of(self)):
+            if not self.asks_of(session.study.progress().person(person.name)):
                 return True
         return Questions.run(self, session, progress, person, lock)
+
+    def asks_of(self, person):
+        return next((attempt for attempt in reversed(person.of(self)) if attempt.counts), None)
 
     def truth(self, study, person, row):
         item = next((item for item in self.asks.items if item.name == row["item"]), None)
         if not item or not item.probes:
             return {}
-        stopped = [attempt for attempt in person.of(self) if attempt.counts]
-        known = truth(item, Record(study.attempt_folder(person.name, self.name, stopped[-1].number) / stopped[-1].trial)) if stopped else None
+        stopped = self.asks_of(person)
+        known = truth(item, Record(study.attempt_folder(person.name, self.name, stopped.number) / stopped.trial)) if stopped else None
         return {"truth": "n/a" if known is None else known, **off(item, row["answer"], known)}
 
 

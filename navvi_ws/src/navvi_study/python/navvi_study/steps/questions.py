@@ -31,9 +31,9 @@ class Questions(Step):
     def ask(self, session, name, lock):
         """What is left of the items. Returns all answers; None where the person broke it off."""
         study = session.study
-        known = study.answers_of(name, self)
+        about, known = self.asks_of(study.progress().person(name)), study.answers_of(name, self)
         if left := [item for item in self.asks.items if item.name not in known]:
-            session.runner.ask(name, self, left, lambda *given: study.add_answer(name, self, *given), lock)
+            session.runner.ask(name, self, left, lambda *given: study.add_answer(name, self, about, *given), lock)
             known = study.answers_of(name, self)
         if all(item.name in known for item in self.asks.items):
             return known

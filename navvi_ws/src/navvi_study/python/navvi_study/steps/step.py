@@ -92,6 +92,13 @@ class Step:
         """Does it. Returns False where the participant cannot go on."""
         return session.done(person.name, self)
 
+    def asks_of(self, person):
+        """The attempt whose trial its questions are about; None of questions about no trial, or while it has none that counts."""
+
+    def holds(self, person, row):
+        """Whether an answer stands: one about a trial as long as that counts. Those of before name no attempt."""
+        return "attempt" not in row or (about := self.asks_of(person)) is not None and about.number == row["attempt"]
+
     def truth(self, study, person, row):
         """Columns of an answer to it, besides those of all. \\param row  of the participant's answers"""
         return {}
