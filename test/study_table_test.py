@@ -225,6 +225,68 @@ def test_answers_that_were_given_are_not_asked_again(work):
     assert len(work.study.answers("sub-01")) == 6
 
 
+class Voice(Driver):
+    """Asks by the voice: ./navvi writes an answer to the first item that it is to ask, and this program dies of what comes next in `dies`."""
+
+    def __init__(self, kept, *results):
+        super().__init__(kept, *results)
+        navvi = kept.folder.parent / "navvi"
+        navvi.write_text("""#!/bin/sh
+for word; do case $word in feedback/questions:=*) questions=${word#*:=};; feedback/record:=*) record=${word#*:=};; esac; done
+printf 'item,answer,seconds\\n%s,50,1.0\\n' $(sed -n 's/.* name: //p;s/^- name: //p' $questions | head -n 1) > $record
+""")
+        navvi.chmod(0o755)
+        self.live, self.dies, self.asked = runner.LiveRunner(kept, navvi, "true"), [], []
+        self.run, self.live._run = self.live._run, self.killed
+
+    def killed(self, *given):
+        self.run(*given)
+        if self.dies:
+            raise self.dies.pop()
+
+    def ask(self, participant, step, items, answered, lock):
+        self.asked.append([item.name for item in items])
+        self.live.ask(participant, step, items, answered, lock)
+
+
+def test_answers_that_the_voice_has_taken_are_kept_though_study_next_dies(tmp_path):
+    kept = frozen(tmp_path, ("operator: simulated", "operator: pad"))
+    begun = begin(kept, driver=Voice)
+    begun.next("sub-01")
+    begun.runner.dies = [KeyboardInterrupt()]
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    assert kept.answers("sub-01") == []
+    begun.next("sub-01")
+    assert [(row["item"], row["seconds"]) for row in kept.answers("sub-01")] == [("mental", "1.0"), ("physical", "1.0")]
+    begun.next("sub-01")
+    assert [len(items) for items in begun.runner.asked] == [6, 6, 4] and not list(kept.home("sub-01").glob("*.csv"))
+
+
+def test_answers_about_an_excluded_probe_that_the_voice_has_taken_are_not_those_about_the_next(tmp_path):
+    kept = frozen(tmp_path, PROBES, ("operator: simulated", "operator: pad"))
+    begun = begin(kept, driver=Voice)
+    begun.next("sub-01")
+    begun.runner.dies = [KeyboardInterrupt()]
+    with pytest.raises(KeyboardInterrupt):
+        begun.next("sub-01")
+    actions.exclude(exclusion(kept, "sub-01/trial-2", "a siren"))
+    begun.next("sub-01")
+    assert [(row["item"], row["attempt"]) for row in kept.answers("sub-01")] == [("goal", 2)]
+
+
+def test_what_is_typed_is_kept_once_the_next_answer_is_and_until_then_corrected(capsys):
+    tlx, given = questionnaire.find("tlx", EXAMPLE.parent), []
+
+    def typed(*lines):
+        given.clear()
+        runner.ask_in_terminal(tlx, tlx.items, lambda item, answer: given.append((item.name, answer)), iter([*lines, None]).__next__)
+        return given
+    assert typed("10", "20", "30") == [("mental", "10"), ("physical", "20")]
+    assert typed("10", "b", "15", "20", "b", "b", "25", "x", "r", "d") == [("mental", "15"), ("physical", "25")]
+    assert typed(*["10"] * 5, "d") == [(item.name, "10") for item in tlx.items[:5]] + [("frustration", "declined")]
+
+
 PROBES = ("limit: 60", "limit: 60\nprobes: {after: [5, 20], worlds: {world: easy, seeds: [3, 4]}}")
 
 

@@ -82,12 +82,14 @@ class LiveRunner:
             self._ask_by_voice(participant, step, items, answered, lock)
 
     def _ask_by_voice(self, participant, step, items, answered, lock):
-        script = self.study.home(participant) / f"{step.name}.yaml"
+        about = step.asks_of(self.study.progress().person(participant))
+        script = self.study.home(participant) / (f"{step.name}-a{about.number}.yaml" if about else f"{step.name}.yaml")
         record = script.with_suffix(".csv")
-        write_safely(script, questionnaire.script(items, step.asks.title, step.asks.intro))
-        self._run(["questionnaire", f"feedback/questions:={script}", f"feedback/record:={record}", f"person:={participant}",
-                   f"operator:={self.study.plan.operator}", f"out:={self.study.home(participant)}"], participant, lock)
-        keep_answers(record, items, answered)
+        if left := keep_answers(record, items, answered):  # what was answered before a crash is not asked again
+            write_safely(script, questionnaire.script(left, step.asks.title, step.asks.intro))
+            self._run(["questionnaire", f"feedback/questions:={script}", f"feedback/record:={record}", f"person:={participant}",
+                       f"operator:={self.study.plan.operator}", f"out:={self.study.home(participant)}"], participant, lock)
+            keep_answers(record, left, answered)
 
     def pause(self):
         """Waits for the experimenter where a pause was asked for."""
@@ -222,17 +224,19 @@ def place_of(plan, participant, step, attempt):
 
 
 def keep_answers(record, items, answered):
-    """What the lesson has written."""
+    """What the lesson has written, which goes with that. Returns the items without an answer."""
     answers = {row["item"]: row for row in questionnaire.read_answers(record)}
     for item in items:
         if row := answers.get(item.name):
             answered(item, row["answer"], row.get("seconds", "n/a"))
+    record.unlink(missing_ok=True)
+    return [item for item in items if item.name not in answers]
 
 
 def ask_in_terminal(asks, items, answered, read):
-    """The experimenter reads aloud and types. An answer counts once the next one is typed, or the last is confirmed; b corrects it."""
+    """The experimenter reads aloud and types. An answer counts once the next one is typed, and the last at once; until then b corrects it."""
     print(f"navvi: {asks.title}. {asks.intro}. For each, type the answer, r to read it again, b for the one before, d for rather not say.")
-    given, at = {}, 0
+    given, at, kept = {}, 0, 0
     while at < len(items):
         item = items[at]
         print(f"{item.ask}? Allowed: {allowed_words(item)}" + (f"; now {given[item.name]}" if item.name in given else ""))
@@ -240,14 +244,15 @@ def ask_in_terminal(asks, items, answered, read):
         if word is None:
             return
         if word == "b":
-            at = max(0, at - 1)
+            at = max(kept, at - 1)
         elif word == "d" or word in item.values():
             given[item.name] = questionnaire.DECLINED if word == "d" else word
             at += 1
+            while kept < (at if at == len(items) else at - 1):
+                answered(items[kept], given[items[kept].name])
+                kept += 1
         elif word != "r":
             print(f"navvi: \"{word[:40]}\" is not allowed here.")
-    for item in items:
-        answered(item, given[item.name])
 
 
 def allowed_words(item):
