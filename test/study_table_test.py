@@ -5,11 +5,14 @@ import math
 import os
 import shutil
 import signal
+import threading
+import time
 
 import pytest
 
 from small_study import Driver, EXAMPLE, begin, exclusion, frozen, rest, small, trial_of, words, work, write_record, write_summary  # noqa: F401
-from navvi_study import actions, export, journal, overview, progress, questionnaire, record, report, runner, schedule, study, table, verify, worlds
+from navvi_study import actions, export, journal, overview, progress, questionnaire, record, report, runner, schedule, session, study, table, verify, worlds
+from navvi_study.analysis import Analysis
 from navvi_study.errors import StudyError
 from navvi_study.steps import probe
 
@@ -396,6 +399,32 @@ def test_D1_a_note_of_any_bytes_is_kept_and_none_ends_the_desk(work, capsys):
     assert told.count("\"what\" is not understood") == 2 and told.count(runner.DESK) == 1
     row = table.trials(work.study, work.study.progress())[0]
     assert (row["marks"], row["interventions"]) == ("3", "1")
+
+
+def test_what_is_typed_while_no_trial_runs_is_told_and_is_no_note_of_the_next_trial(tmp_path, capsys):
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nbreak: {minutes: 0.001}"))
+    live, (reader, writer) = runner.LiveRunner(kept, tmp_path / "navvi", "true"), os.pipe()
+    live.lines, told = runner.Lines(reader), " was typed while no trial runs, and nothing is written.\n"
+    (tmp_path / "navvi").write_text("#!/bin/sh\nsleep 0.5\n")
+    (tmp_path / "navvi").chmod(0o755)
+    os.write(writer, b"n in a lesson\n")
+    runner.Desk(None, None, live.lines).listen(0.0)
+    os.write(writer, b"n in a break\n\n")
+    pause = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.kind == "break")
+    pause.run(session.Session(kept, live), kept.progress(), kept.progress().person("sub-01"), None)
+    os.write(writer, b"a\n")
+    live.paused = True
+    threading.Timer(0.2, os.write, (writer, b"\n")).start()
+    live.pause()
+    os.write(writer, b"n before a trial\n")
+    session.Session(kept, live, say=lambda line: None).next("sub-01")
+    assert [line for line in capsys.readouterr().out.splitlines(keepends=True) if told in line] == [
+        f'navvi: "{line}"{told}' for line in ("n in a lesson", "n in a break", "a", "n before a trial")]
+    assert kept.notes("sub-01") == []
+    os.close(writer)
+    begun = time.monotonic()
+    live.lines.drop(0.1)
+    assert time.monotonic() - begun >= 0.1, "also where nothing can be typed"
 
 
 @pytest.mark.parametrize("problem", [StudyError("the disk is full"), UnicodeEncodeError("utf-8", "\udce9", 0, 1, "no"), OSError(28, "No space left")])

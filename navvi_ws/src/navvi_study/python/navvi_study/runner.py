@@ -43,6 +43,7 @@ class LiveRunner:
     def trial(self, participant, step, attempt, folder, lock):
         """Returns when the session has ended, in whatever way."""
         words = [f"{name}:={value}" for name, value in self.arguments(participant, step, attempt, folder).items()]
+        self.lines.drop()
         print("navvi: " + DESK)
         self._run(["run", *words], participant, lock, lambda row: self.study.note(participant, attempt, row))
 
@@ -94,6 +95,7 @@ class LiveRunner:
     def pause(self):
         """Waits for the experimenter where a pause was asked for."""
         if self.paused:
+            self.lines.drop()
             print("navvi: paused; Enter goes on.", flush=True)
             self.lines.next()
         self.paused = False
@@ -141,6 +143,14 @@ class Lines:
         line, _, self.rest = self.rest.partition(b"\n")
         return line.decode(errors="replace").strip()
 
+    def drop(self, seconds=0.0):
+        """Reads for so many seconds, while nothing takes what is typed, and what was typed before."""
+        end = time.monotonic() + seconds
+        while (line := self.next(max(0.0, end - time.monotonic()))) is not None:
+            if line:
+                print(f"navvi: \"{line[:40]}\" was typed while no trial runs, and nothing is written.", flush=True)
+        time.sleep(max(0.0, end - time.monotonic()))
+
 
 class Desk:
     """The experimenter's lines while a session runs."""
@@ -156,7 +166,9 @@ class Desk:
         if self.interrupted:
             self.interrupted = False
             self.obey("a")
-        elif self.note is None or not (self.lines.open or self.lines.rest):
+        elif self.note is None:
+            self.lines.drop(seconds)
+        elif not (self.lines.open or self.lines.rest):
             time.sleep(seconds)
         elif line := self.lines.next(seconds):
             self.obey(line)

@@ -1,5 +1,4 @@
 """Breaks between conditions."""
-import time
 from dataclasses import dataclass
 
 from ..checked import number, whole
@@ -35,7 +34,7 @@ class Pause(Step):
         if session.wait:
             session.say(f"navvi: {person.name}: a break of {self.minutes:g} minutes; Ctrl-C ends it early.")
             try:
-                time.sleep(60 * self.minutes)
+                session.runner.lines.drop(60 * self.minutes)
             except KeyboardInterrupt:
                 session.say("navvi: the break was ended early.")
         return super().run(session, progress, person, lock)
