@@ -113,7 +113,8 @@ class Legs(Driver):
     def trial(self, participant, step, attempt, folder, lock):
         self.driven.append((attempt.world, attempt.seed))
         for at, result in enumerate(self.results.pop(0) if self.results else ["reached"] * (2 if attempt.seed == 1 else 1), 1):
-            write_summary(folder / f"trial-{len(self.driven)}-{at}", result, elapsed=10.0 * at)
+            reason = "ended_by_person" if result == "aborted" else "n/a"
+            write_summary(folder / f"trial-{len(self.driven)}-{at}", result, elapsed=10.0 * at, reason=reason)
 
 
 def job(folder):
@@ -145,6 +146,27 @@ def test_a_job_counts_where_each_of_its_legs_was_driven_to_its_end(tmp_path, res
     begin(kept, results, driver=Legs).next("sub-01")
     attempt = kept.progress().person("sub-01").attempts[0]
     assert (attempt.result, attempt.counts, len(attempt.legs)) == (result, counts, len(results))
+
+
+@pytest.mark.parametrize("gave_up, reached", [(["aborted"], 2 / 3), (["reached", "aborted"], 3 / 4)])
+def test_who_gives_up_a_job_drops_out_once_however_far_it_came(tmp_path, gave_up, reached):
+    (tmp_path / "round.yaml").write_text("- {name: packing table, x: 4, y: -6.2, do: pick}\n- {name: gate 4, x: 7, y: -3}\n")
+    kept = frozen(tmp_path, JOB, ("seeds: [1]", "seeds: [1, 5]"), ("seeds: [2]", "seeds: [2, 6]"))
+    rest(begin(kept, ["reached", "reached"], gave_up, driver=Legs))
+    measured = Analysis(kept, kept.progress())
+    shown = {name: {row["condition"]: (row["trials"], row["mean"]) for row in measured.by_condition(name)} for name in ("drop_out", "reached")}
+    assert shown["drop_out"] == {"full": (2, 0.5), "plain": (2, 0.0)} and shown["reached"]["full"] == (2 + len(gave_up), pytest.approx(reached))
+
+
+def test_the_experimenter_ends_a_job_between_two_places_too(tmp_path):
+    kept = job(tmp_path)
+
+    class Ending(Legs):
+        def trial(self, participant, step, attempt, folder, lock):
+            kept.note(participant, attempt, {"utc": "", "mono_ns": 1, "type": "abort", "text": ""})
+            super().trial(participant, step, attempt, folder, lock)
+    begin(kept, ["reached"], driver=Ending).next("sub-01")
+    assert kept.progress().person("sub-01").attempts[0].excluded == "drop-out: ended by the experimenter"
 
 
 def test_a_job_with_a_leg_to_another_goal_has_tables_that_name_no_place(tmp_path):

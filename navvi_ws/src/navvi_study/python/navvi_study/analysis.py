@@ -51,7 +51,7 @@ class Contrast:
 class Analysis:
     def __init__(self, study, progress):
         self.plan, self.blind = progress.plan, bool(study.letters)
-        rows = [row for row in table.trials(study, progress) if row["counts"] in ("yes", measures.DROP_OUT)]
+        rows = [{"leg": "1", **row} for row in table.trials(study, progress) if row["counts"] in ("yes", measures.DROP_OUT)]
         self.trials = pd.DataFrame(rows, columns=list(rows[0]) if rows else ["participant", "group", "condition", "order", "result"])
         self.scores = pd.DataFrame(table.scores(study, progress), columns=["participant", "group", "condition", "order", "questionnaire", "score", "prorated"]).replace({"condition": "n/a"}, "at the end")
 

@@ -54,8 +54,10 @@ def value(measure, row):
     """Of one trial, a row of trials.csv; None where it is not known, or the measure is not defined for the trial."""
     if row["counts"] != "yes" and not (measure.of == BEGUN and row["counts"] == DROP_OUT):
         return None
+    if measure.columns == (DROP_OUT,):  # of a job once, however far it came
+        return float(row["counts"] == DROP_OUT) if row.get("leg", "1") == "1" else None
     if measure.kind == "share":
-        return float((DROP_OUT if row["counts"] == DROP_OUT else row["result"]) == measure.columns[0])
+        return float(row["result"] == measure.columns[0])
     if measure.of == REACHED and row["result"] != "reached":
         return None
     numbers = [number(row.get(column)) for column in measure.columns]

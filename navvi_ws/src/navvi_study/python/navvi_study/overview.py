@@ -39,7 +39,8 @@ def conditions(plan):
 
 def broken_off(plan):
     """What happens to trials that do not end at goal or limit."""
-    lines = ["A trial that the person or the experimenter ends is a drop-out: not reached, in no other measure, and nothing takes its place.",
+    lines = ["A trial that the person or the experimenter ends is a drop-out: not reached (of a job, the legs before keep their results), in no other "
+             "measure, and nothing takes its place.",
              "A trial that breaks off by itself (aborted, refused, invalid) does not count, and a world of the reserve takes its place."]
     return lines + [f"The same holds where {rule.column} is {' or '.join(rule.one_of) if rule.one_of else f'above {rule.above:g}'}: {rule.reason}." for rule in plan.exclusions]
 
