@@ -575,6 +575,9 @@ def test_an_export_has_the_names_of_bids_no_date_and_the_same_bytes_twice(work):
     for at in range(2):
         write_record(trial_of(work.study, at=at)[1])
 
+    for kind in "mark", "note", "intervention", "pause", "abort":
+        work.study.note("sub-01", trial_of(work.study)[0], {"utc": "", "mono_ns": int(1002e9), "type": kind, "text": "Anna sat down"})
+
     def way(path):
         return [(9.0 + step, float(step), 0.0, 0.0) for step in range(30)]
     folder = export.write(work.study, state, way)
@@ -585,7 +588,8 @@ def test_an_export_has_the_names_of_bids_no_date_and_the_same_bytes_twice(work):
     assert len(names) == 2 * 5 and "sub-01_ses-1_task-drive_tracksys-odometry_acq-plain_run-01_motion.tsv" in names
     lines = next(motion.glob("*_motion.tsv")).read_text().splitlines()
     assert len(lines) == 20 * 20 + 1 and lines[0].split("\t")[0] == "1.0000"  # from the begin of the trial on, 20 s at 20 Hz
-    assert not any(b"2026" in content for content in first.values())
+    assert not any(b"2026" in content or b"Anna" in content for content in first.values())
+    assert next(motion.glob("*acq-full*_events.tsv")).read_text().count("\tnote\tn/a\tn/a\tn/a\n") == 1
 
 
 @pytest.mark.parametrize("change, both", [

@@ -19,7 +19,7 @@ TRACKING = "odometry"
 SHARE = "share"  # item of the consent: who did not say yes to it is left out
 PARTICIPANTS = {"group": {"Description": "group of the plan"}}
 EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Units": "s"}, "duration": {"Units": "s"},
-          "trial_type": {"Description": "what happened, as doc/record.md lists it, or the experimenter's mark, note, intervention or abort"}}
+          "trial_type": {"Description": "what happened, as doc/record.md lists it, or the experimenter's mark, note, intervention, pause or abort"}}
 
 
 def write(study, progress, read_way):
@@ -78,7 +78,7 @@ def _trial(folder, row, attempt, run, study, read_way):
         "SpatialAxes": "FLS", "RotationRule": "right-hand", "RotationOrder": "XYZ", "ManufacturersModelName": "navvi_sim",
         "SoftwareVersions": row.get("version", "n/a")})
     events = [[event["onset_s"], event["duration_s"], event["trial_type"], event.get("robot_x_m", "n/a"), event.get("robot_y_m", "n/a"), event["detail"]]
-              for event in table.events_of(study, row["participant"], attempt, row["trial"])]
+              for event in table.events_of(study, row["participant"], attempt, row["trial"], words=False)]
     _tsv(place / f"{name}_{end}_events.tsv", ["onset", "duration", "trial_type", "robot_x", "robot_y", "detail"], events)
     _json(place / f"{name}_{end}_events.json", {**EVENTS, **{f"robot_{axis}": {"Description": "of the robot in map", "Units": "m"} for axis in "xy"},
                                                 "detail": {"Description": "kind of a cue, or reason, state, device or result"}})

@@ -23,7 +23,7 @@ NOT_OURS = {"participant", "group", "condition", "order", "session", "phase", "r
 WHOSE = ("participant", "group", "session", "order", "condition", "phase", "repeat", "attempt", "counts", "trial")
 EVENTS = {
     "onset_s": "since the trial began, simulated time", "duration_s": "simulated time; n/a where it is not known",
-    "trial_type": "what happened, as doc/record.md lists it; mark, note, intervention and abort are the experimenter's, by key",
+    "trial_type": "what happened, as doc/record.md lists it; mark, note, intervention, pause and abort are the experimenter's, by key",
     "wall_clock_utc": "ISO 8601", "obstacle_position": "left, right or center", "elapsed_s": "simulated time, when the goal is reached",
     "robot_x_m": "of the robot in map", "robot_y_m": "of the robot in map", "goal_x_m": "of the goal in map", "goal_y_m": "of the goal in map",
     "thing_class": "of what came near or was hit", "thing": "its name", "spoken": "words of a cue",
@@ -93,8 +93,9 @@ def events(study, progress):
     return rows
 
 
-def events_of(study, participant, attempt, trial):
-    """Of one trial, in the order of their onsets."""
+def events_of(study, participant, attempt, trial, words=True):
+    """Of one trial, in the order of their onsets.
+    \\param words  with the experimenter's own"""
     record = Record(study.attempt_folder(participant, attempt.step, attempt.number) / trial)
     found = record.events()
     for note in study.notes(participant):
@@ -103,7 +104,7 @@ def events_of(study, participant, attempt, trial):
             continue
         if mine and (onset := record.onset_of(note["mono_ns"])) is not None:
             found.append({"onset_s": f"{onset:.3f}", "duration_s": "0", "wall_clock_utc": note["utc"], "trial_type": note["type"],
-                          "detail": note["text"] or "n/a"})
+                          "detail": words and note["text"] or "n/a"})
     return sorted(found, key=lambda event: float(event["onset_s"]))
 
 
