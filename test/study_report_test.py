@@ -325,9 +325,10 @@ def test_a_workload_with_one_item_declined_is_prorated_and_the_report_says_so(wo
     assert "1 of 3 scores are prorated: one item was declined" in report.page(work.study, work.study.progress(), rehearsed=False)
 
 
-def test_models_find_what_was_put_in_and_nothing_where_nothing_is():
+@pytest.mark.parametrize("place", [lambda person, first: 1 + (person + first) % 2, lambda person, first: 1 + first], ids=["williams", "listed"])
+def test_models_find_what_was_put_in_and_nothing_where_nothing_is(place):
     source = np.random.default_rng(7)
-    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + first) % 2, "first": float(first), "reached": True, "exposure": 1.0,
+    rows = [{"participant": f"sub-{person:02d}", "order": place(person, first), "first": float(first), "reached": True, "exposure": 1.0,
              "count": source.poisson(3.0 * (2.0 if first else 1.0) * ability), "time": min(60.0, source.exponential(20.0 if first else 40.0) * ability)}
             for person in range(40) for ability in [source.gamma(8.0, 1 / 8.0)] for first in (0, 1) for _ in range(3)]
     values = pd.DataFrame(rows).assign(reached=lambda rows: rows["time"] < 60.0)

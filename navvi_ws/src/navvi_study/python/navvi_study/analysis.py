@@ -194,9 +194,11 @@ def corrected(contrasts, method):
 
 
 def _predictors(values):
-    """The condition, and the place in the order where that varies."""
+    """The condition, and its place in the order, where the two conditions do not lie equally far apart for all: in one order for all the two
+    predictors would be one."""
     columns = {"const": 1.0, "first": values["first"]}
-    if values["order"].nunique() > 1:
+    places = values.groupby(["participant", "first"])["order"].mean().unstack()
+    if (places[1.0] - places[0.0]).nunique() > 1:
         columns["order"] = values["order"] - values["order"].mean()
     return pd.DataFrame(columns, index=values.index)
 

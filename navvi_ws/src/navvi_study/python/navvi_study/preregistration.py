@@ -52,7 +52,7 @@ def page(plan, freezes):
         "Analysis": [
             *[words for kind, words in MODELS.items() if kind in kinds],
             *([EQUIVALENCE] if any(getattr(one, "within", 0) for one in outcomes) else []),
-            "Models hold the place of the condition in the order, where it varies.",
+            "Models hold the place of the condition in the order, unless all drive in one order.",
             f"Beside each stands the mean of the paired differences with its 95 % interval, a bootstrap of participants ({RESAMPLES} draws).",
             f"Below {LEAST} participants there is neither interval nor test.",
             "The primary outcome is not corrected, the secondary ones are by Holm; all else is exploratory, corrected by Benjamini and Hochberg.",
