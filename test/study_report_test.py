@@ -352,6 +352,24 @@ def test_where_all_are_quicker_in_one_condition_there_is_a_p_though_no_ratio():
     assert one.p == pytest.approx(scipy.stats.chi2.sf((12 * 0.5) ** 2 / (12 * 0.25), 1)) and one.estimate is None and "no ratio" in one.note
 
 
+def test_where_nobody_arrives_in_one_condition_there_is_a_p_though_no_ratio():
+    rows = [{"participant": f"sub-{person:02d}", "order": 1 + (person + first) % 2, "first": float(first), "reached": bool(first), "exposure": 1.0,
+             "value": 30.0 + person if first else 60.0} for person in range(12) for first in (0, 1)]
+    one = Contrast("time", "a", "b")
+    MODELS["time"](one, pd.DataFrame(rows), None)
+    assert one.p == pytest.approx(scipy.stats.chi2.sf((12 * 0.5) ** 2 / (12 * 0.25), 1))
+    assert one.note == "nobody arrived under one of the conditions, so that no ratio can be estimated"
+    nobody = Contrast("time", "a", "b")
+    with pytest.raises(ValueError, match="nobody arrived$"):
+        MODELS["time"](nobody, pd.DataFrame(rows).assign(value=60.0, reached=False), None)
+
+
+def test_what_cannot_be_tested_is_of_the_family_for_which_p_is_corrected():
+    family = [Contrast("time", "a", "b", p=p) for p in (None, 0.02, 0.04)]
+    assert [one.corrected for one in analysis.corrected(family, "holm")] == [None, pytest.approx(0.06), pytest.approx(0.08)]
+    assert analysis.corrected([], "holm") == []
+
+
 @pytest.mark.parametrize("kind", ["count", "share"])
 def test_where_nothing_is_counted_in_one_condition_ranks_are_compared(kind):
     rows = [{"participant": f"sub-{person:02d}", "order": 1 + first, "first": float(first), "reached": True, "exposure": 1.0,

@@ -186,10 +186,10 @@ def interval(values):
 
 
 def corrected(contrasts, method):
-    tested = [one for one in contrasts if one.p is not None]
-    if tested:
-        for one, p in zip(tested, multipletests([one.p for one in tested], method=method)[1]):
-            one.corrected = p
+    """All of them are of the family: one that could not be tested counts as p = 1."""
+    if contrasts:
+        for one, p in zip(contrasts, multipletests([1.0 if one.p is None else one.p for one in contrasts], method=method)[1]):
+            one.corrected = None if one.p is None else p
     return contrasts
 
 
@@ -240,23 +240,26 @@ def _time(result, values, _):
     """Cox, stratified by participant; who did not arrive is censored at the limit."""
     reached = values["reached"].astype(int)
     if reached.groupby(values["first"]).sum().min() == 0:
-        raise ValueError("nobody arrived under one of the conditions")
+        return _log_rank(result, values, reached, "nobody arrived under one of the conditions")
     predictors = _predictors(values).drop(columns="const")
     fit = sm.PHReg(values["value"], predictors, status=reached, strata=values["participant"], ties="efron").fit()
     at = list(predictors).index("first")
     if not np.isfinite([fit.params[at], fit.bse[at]]).all() or fit.bse[at] > MOST_ERROR:
-        return _log_rank(result, values, reached)
+        return _log_rank(result, values, reached, "the times of (nearly) all participants differ in one direction")
     return _ratio(result, "Cox, stratified by participant, censored at the limit", "hazard ratio of arriving", fit.params[at], fit.bse[at], fit.pvalues[at])
 
 
-def _log_rank(result, values, reached):
-    """The stratified log-rank test, for all participants being quicker in the same condition: the ratio has no bound then, p has."""
+def _log_rank(result, values, reached, why):
+    """The stratified log-rank test, for a ratio that has no bound: p has.
+    \\param why  it has none, in words"""
+    if not reached.any():
+        raise ValueError("nobody arrived")
     model = sm.PHReg(values["value"], values[["first"]], status=reached, strata=values["participant"], ties="efron")
     score, information = float(model.score(np.zeros(1))[0]), -float(model.hessian(np.zeros(1))[0, 0])
     if information <= 0:
         raise ValueError("no two times of a participant can be compared")
     result.model, result.p = "log-rank test, stratified by participant", float(scipy.stats.chi2.sf(score ** 2 / information, 1))
-    result.note = "the times of (nearly) all participants differ in one direction, so that no ratio can be estimated"
+    result.note = f"{why}, so that no ratio can be estimated"
 
 
 def _share(result, values, differences):

@@ -55,7 +55,8 @@ def page(plan, freezes):
             "Models hold the place of the condition in the order, unless all drive in one order.",
             f"Beside each stands the mean of the paired differences with its 95 % interval, a bootstrap of participants ({RESAMPLES} draws).",
             f"Below {LEAST} participants there is neither interval nor test.",
-            "The primary outcome is not corrected, the secondary ones are by Holm; all else is exploratory, corrected by Benjamini and Hochberg.",
+            "The primary outcome is not corrected, the secondary ones are by Holm; all else is exploratory, corrected by Benjamini and Hochberg. "
+            "What cannot be tested counts as p = 1 in both.",
             *(["Reports have letters for the conditions until the analysis is frozen."] if plan.blind else [])],
         "Exclusions": overview.broken_off(plan),
         "Changes since the plan was frozen first": [f"{row['utc'][:10]}, {row['reason']}: {change}" for row in freezes for change in row["changes"]],
