@@ -154,6 +154,12 @@ def test_a_pre_registration_tells_the_frozen_plan_in_words(tmp_path):
     assert ", too short: limit: 60.0 is now 90.0" in text and "plain and full differ." in text and "after 90 s" in text
 
 
+def test_a_pre_registration_has_counts_in_the_unit_of_the_analysis(tmp_path):
+    kept = frozen(tmp_path, ("measure: time", "measure: collisions"), ("full]}", "full], equivalent_within: 2, sd: 3}, exposure: path"))
+    text = preregistration.write(kept).read_text()
+    assert "are equivalent within 2 (per 100 m)." in text and "equivalence within 2 (per 100 m), where" in text and "a trial)" not in text
+
+
 @pytest.mark.parametrize("keys, words", [
     # (1.960 + 0.842)^2 (8 / 5)^2 + 1.960^2 / 2 = 22.01, and 28.8 with 1.282; of equivalence with 1.645 and 1.282, 23.3, and with 1.645 29.1.
     ("effect: 5, sd: 8", "a difference of 5 (s), where participants' differences have an SD of 8, is shown with 80 % power by 23 participants, with 90 % by 29; 4 are planned."),

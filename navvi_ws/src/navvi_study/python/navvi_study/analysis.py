@@ -68,8 +68,7 @@ class Analysis:
         return rows.astype({"value": float, "exposure": float, "order": int})
 
     def unit(self, name):
-        measure = MEASURES[name]
-        return measures.EXPOSURES[self.plan.exposure][0] if measure.kind == "count" else measure.unit
+        return measures.unit(name, self.plan.exposure)
 
     def prorated(self, name):
         """How many scores of the measure leave an item out."""

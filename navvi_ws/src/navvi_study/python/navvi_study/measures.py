@@ -68,6 +68,11 @@ def value(measure, row):
     return sum(numbers)
 
 
+def unit(name, per):
+    """Of a measure's values. \\param per  a key of EXPOSURES"""
+    return EXPOSURES[per][0] if MEASURES[name].kind == "count" else MEASURES[name].unit
+
+
 def exposure(measure, row, per):
     """What the value of a trial is divided by: 1 but for counts, whose exposure the plan may name; None where it is not known.
     \\param per  a key of EXPOSURES"""

@@ -3,7 +3,7 @@ import json
 from types import SimpleNamespace
 
 from . import overview
-from .measures import EXPOSURES, LEAST, MEASURES, RESAMPLES, sample_size
+from .measures import LEAST, MEASURES, RESAMPLES, sample_size, unit
 from .steps import KINDS
 from .study import write_safely
 
@@ -31,10 +31,9 @@ def page(plan, freezes):
     """Lines of Markdown."""
     outcomes = [plan.primary, *plan.secondary]
     kinds = {MEASURES[one.measure].kind for one in outcomes if not getattr(one, "within", 0)}
-    per_trial = EXPOSURES[plan.exposure][0]
     sections = {
         "Hypotheses": [
-            f"Primary: {hypothesis(plan.primary)}", *[f"Secondary: {hypothesis(one)}" for one in plan.secondary],
+            f"Primary: {hypothesis(plan, plan.primary)}", *[f"Secondary: {hypothesis(plan, one)}" for one in plan.secondary],
             "Differences are tested two-sided at 5 %; equivalence by two one-sided tests at 5 %."],
         "Design": [
             "Each participant drives in all conditions of the group.", *overview.conditions(plan), *overview.balance(plan),
@@ -46,8 +45,7 @@ def page(plan, freezes):
             f"Nobody begins once {plan.stop_after} have completed the study." if plan.stop_after else "The study ends when all have taken part.",
             f"Consent: {plan.consent.title}." if plan.consent else "The plan asks for no consent."],
         "Measures": [
-            *dict.fromkeys(f"{MEASURES[one.measure].label}, {per_trial if MEASURES[one.measure].kind == 'count' else MEASURES[one.measure].unit}, "
-                           f"of {MEASURES[one.measure].of}." for one in outcomes),
+            *dict.fromkeys(f"{MEASURES[one.measure].label}, {unit(one.measure, plan.exposure)}, of {MEASURES[one.measure].of}." for one in outcomes),
             *[f"Questionnaire: {one.title}." for one in (*plan.at_begin, *plan.after_condition, *plan.at_end)]],
         "Analysis": [
             *[words for kind, words in MODELS.items() if kind in kinds],
@@ -76,12 +74,13 @@ def sample(plan):
     sd, within = getattr(one, "sd", 0), getattr(one, "within", 0)
     if not sd:
         return []
-    effect, unit = within or one.effect, MEASURES[one.measure].unit
+    effect = within or one.effect
     few, many = (sample_size(effect, sd, power, bool(within)) for power in (0.8, 0.9))
-    return [f"Sample size: {'equivalence within' if within else 'a difference of'} {effect:g} ({unit}), where participants' differences have an SD of {sd:g}, is shown with "
-            f"80 % power by {few} participants, with 90 % by {many}; {planned} are planned."]
+    return [f"Sample size: {'equivalence within' if within else 'a difference of'} {effect:g} ({unit(one.measure, plan.exposure)}), where "
+            f"participants' differences have an SD of {sd:g}, is shown with 80 % power by {few} participants, with 90 % by {many}; {planned} are planned."]
 
 
-def hypothesis(one):
-    measure, within = MEASURES[one.measure], getattr(one, "within", 0)
-    return f"{measure.label}: {one.first} and {one.second} {f'are equivalent within {within:g} ({measure.unit})' if within else 'differ'}."
+def hypothesis(plan, one):
+    within = getattr(one, "within", 0)
+    return (f"{MEASURES[one.measure].label}: {one.first} and {one.second} "
+            + (f"are equivalent within {within:g} ({unit(one.measure, plan.exposure)})." if within else "differ."))
