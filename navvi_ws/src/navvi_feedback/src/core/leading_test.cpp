@@ -98,6 +98,21 @@ TEST_F(Leading, falls_silent_where_the_robot_is_to_stand_and_says_why) {
   EXPECT_EQ(pass(0.1).flow.left, 0.0) << "before a thing that moves";
 }
 
+TEST_F(Leading, by_a_sound_leads_in_the_next_trial_after_one_that_ended_before_the_goal) {
+  begin("flow");
+  const auto run = [&](TrialState::State state) { guide_->take(TrialState{state}, time_); };
+  for (const double between : {11.0, 1.0}) {
+    run(TrialState::State::running);
+    EXPECT_GT(pass(2.0).flow.right, 0.0);
+    guide_->end_trial(Content{CueKind::trial_ends, About::over});
+    EXPECT_EQ(pass(0.5).flow.right, 0.0);
+    run(TrialState::State::preparing);
+    EXPECT_EQ(pass(between).flow.right, 0.0);
+  }
+  run(TrialState::State::running);
+  EXPECT_GT(pass(2.0).flow.right, 0.0) << "also soon after it";
+}
+
 TEST_F(Leading, by_a_sound_that_nobody_follows_gives_way_to_ticks) {
   begin("flow");
   steer_ = 0.6;

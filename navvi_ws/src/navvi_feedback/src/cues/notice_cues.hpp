@@ -10,7 +10,7 @@
 namespace navvi_feedback::cues {
 
 /// Tells each notice when it comes, or, while it was told too short a time ago, a little later if
-/// it lasts; and knows since when the trial is over.
+/// it lasts; and knows since when the trial is over, until the next one runs.
 class NoticeCues {
  public:
   /// \param last_words  s, without directions after the end of a trial
@@ -21,6 +21,8 @@ class NoticeCues {
     std::set<Content> notices(tick.now.notices.begin(), tick.now.notices.end());
     if (tick.asked.menu_closed) notices.insert({CueKind::menu_closed, About::menu_closed});
     const std::set<Content> noticed = std::exchange(noticed_, {});
+    const bool ran = std::exchange(runs_, tick.now.trial == TrialState::State::running);
+    if (runs_ && !ran) trial_over_.reset();
     for (const Content& notice : notices) {
       const bool known = noticed.count(notice) > 0;
       if (!known && family_of(notice.kind) == Family::trial_end) trial_over_ = tick.time;
@@ -43,6 +45,7 @@ class NoticeCues {
  private:
   double last_words_;
   std::set<Content> noticed_;         ///< told, and there at the last update
+  bool runs_ = false;                 ///< a trial did, likewise
   std::optional<double> trial_over_;  ///< s
 };
 

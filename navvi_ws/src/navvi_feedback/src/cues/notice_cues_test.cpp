@@ -67,5 +67,20 @@ TEST_F(NoticeCuesTest, gives_no_direction_right_after_the_end_of_a_trial) {
   EXPECT_EQ(pass(2.0), Texts{"turn to 4 o'clock, 20 meters"}) << "the session goes on";
 }
 
+TEST_F(NoticeCuesTest, gives_directions_again_as_soon_as_the_next_trial_runs) {
+  under_way();
+  now_.trial = TrialState::State::running;
+  now_.notices = {{CueKind::trial_ends, About::time_up}};
+  pass(1.0);
+  EXPECT_FALSE(policy_.leads()) << "the last state of that trial comes once more";
+  now_.notices.clear();
+  now_.trial = TrialState::State::preparing;
+  now_.guidance->steer_angle = now_.guidance->waypoint_angle = 2.0;
+  EXPECT_EQ(pass(3.0), Texts{});
+  now_.trial = TrialState::State::running;
+  EXPECT_EQ(pass(2.0), Texts{"turn to 4 o'clock, 20 meters"});
+  EXPECT_TRUE(policy_.leads());
+}
+
 }  // namespace
 }  // namespace navvi_feedback::cues
