@@ -32,6 +32,24 @@ TEST_F(AnswersTest, do_not_tell_the_way_a_third_time_within_seconds_so_that_a_pe
   EXPECT_FALSE(ask(Button::goal).empty()) << "another question";
 }
 
+TEST_F(AnswersTest, C8_tell_no_way_while_the_emergency_stop_is_pressed) {
+  for (const bool by_its_topic : {true, false}) {
+    under_way();
+    stand();
+    now_.gate = DriveState::State::stopped;
+    now_.notices = {CueKind::emergency_stop};
+    if (by_its_topic) now_.devices.states = now_.notices;
+    EXPECT_EQ(pass(15.0).size(), 2U) << "that, and that the robot was stopped";
+    EXPECT_EQ(ask(Button::repeat, 3.0), Texts{"the emergency stop is pressed"});
+    EXPECT_FALSE(policy_.leads()) << "nor does a sound lead";
+    now_.gate = DriveState::State::running;
+    now_.notices.clear();
+    now_.devices.states.clear();
+    EXPECT_EQ(ask(Button::repeat), Texts{"drive straight, 20 meters"});
+    EXPECT_TRUE(policy_.leads());
+  }
+}
+
 TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
   under_way();
   now_.goal_angle = 1.6;

@@ -27,9 +27,10 @@ bool is_fixed(const Utterance& utterance) {
   return thing && (is_structure(*thing) || thing == ThingClass::box || thing == ThingClass::pedestal);
 }
 
-/// It asks to release the stick, too.
-bool asks_to_release(const Utterance& utterance) {
-  return utterance.kind == CueKind::robot_stopped || utterance.kind == CueKind::pad_back ||
+/// It says what HeldStick does, too.
+bool tells_remedy(const Utterance& utterance) {
+  return utterance.kind == CueKind::robot_stopped || utterance.kind == CueKind::emergency_stop ||
+         utterance.kind == CueKind::pad_back ||
          Content(utterance) == Content(CueKind::back, About::keyboard);
 }
 
@@ -85,7 +86,7 @@ Tick CuePolicy::look(const Observation& now, const Asked& asked, double time) {
 }
 
 Utterances CuePolicy::release(const Tick& tick, const Utterances& told) {
-  if (std::any_of(told.begin(), told.end(), asks_to_release)) held_.said(tick.time);
+  if (std::any_of(told.begin(), told.end(), tells_remedy)) held_.said(tick.time);
   // A person who has just arrived lets go of the stick anyway.
   const bool driven = tick.links.pad == Link::alive && tick.links.simulator == Link::alive &&
                       !awaited(tick.now) && state_.problem() != CueKind::arrived;
@@ -140,7 +141,7 @@ Utterances CuePolicy::way(const Tick& tick) {
   }
   // A wait that is not worth saying is no reason to say the direction again.
   if (!tick.follows && !halt_.halted()) return {};
-  // Where the stick is held in vain, its remedy comes first.
+  // Where the stick moves nothing, its remedy comes first.
   if (held_.needed()) return route_.update(tick.now, true, tick.time);
   // What leads all the time is "go on" itself.
   if (lasts(tick.now.lead)) {

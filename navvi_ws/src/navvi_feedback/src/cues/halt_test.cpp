@@ -107,6 +107,19 @@ TEST_F(HaltTest, says_go_on_to_nobody_who_would_meet_what_moves_on_the_way) {
   EXPECT_LT(y, 2.0) << "it will be past";
 }
 
+TEST_F(HaltTest, C8_says_go_on_to_nobody_while_the_emergency_stop_is_pressed) {
+  wait_and_stand();
+  now_.gate = DriveState::State::stopped;
+  now_.notices = now_.devices.states = {CueKind::emergency_stop};
+  const Texts told = {"robot stopped, release the stick", "the emergency stop is pressed"};
+  EXPECT_EQ(pass(30.0), told);
+  EXPECT_EQ(policy_.order().value().kind, CueKind::emergency_stop);
+  now_.gate = DriveState::State::running;
+  now_.notices.clear();
+  now_.devices.states.clear();
+  EXPECT_EQ(pass(1.0), kGoOn);
+}
+
 TEST_F(HaltTest, ends_a_wait_by_the_word_to_make_room) {
   block(ThingClass::forklift);
   lead_to(1.0, 0.0, 0.0, 1.0);

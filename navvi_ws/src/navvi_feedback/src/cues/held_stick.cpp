@@ -15,9 +15,6 @@ constexpr double kNeutral = 0.02;
 
 /// What a person has to do whose stick moves nothing.
 std::optional<CueKind> remedy_of(const Observation& now) {
-  // What is pressed must be released first.
-  const Content pressed = CueKind::emergency_stop;
-  if (std::count(now.notices.begin(), now.notices.end(), pressed) > 0) return {};
   if (now.stick_disabled) return CueKind::hold_to_drive;
   if (now.stick_held_unarmed) return CueKind::release_stick;
   const bool shut =
@@ -30,17 +27,24 @@ std::optional<CueKind> remedy_of(const Observation& now) {
 }  // namespace
 
 Utterances HeldStick::update(const Observation& now, double time) {
+  const auto names_stop = [](const std::vector<Content>& states) {
+    return std::count(states.begin(), states.end(), CueKind::emergency_stop) > 0;
+  };
   const std::optional<CueKind> remedy = remedy_of(now);
-  if (!remedy) {
-    forget();
-    return {};
-  }
-  if (!since_) since_ = time;
-  if (time - *since_ < kHold) return {};
-  needed_ = remedy;
-  if (said_ && time - *said_ < kRepeat) return {};
+  if (!remedy)
+    since_.reset();
+  else if (!since_)
+    since_ = time;
+  const bool held = since_ && time - *since_ >= kHold;
+  // What is pressed must be released first. The gate names it until the stick has been at rest: to
+  // a held one that may be all that is left of it.
+  const bool pressed = names_stop(now.devices.states) || (!remedy && names_stop(now.notices));
+  needed_ = pressed && !now.robotless ? std::optional(CueKind::emergency_stop)
+            : held                    ? remedy
+                                      : std::nullopt;
+  if (!held || (said_ && time - *said_ < kRepeat)) return {};
   said_ = time;
-  return {{*remedy}};
+  return {{*needed_}};
 }
 
 }  // namespace navvi_feedback::cues

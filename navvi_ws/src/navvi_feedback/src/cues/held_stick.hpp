@@ -8,8 +8,8 @@
 namespace navvi_feedback::cues {
 
 /// Says what to do while the stick is held and moves nothing: to release it, before it was neutral
-/// for the first time, or since the robot was stopped; or to hold the button of hold-to-drive. A
-/// person cannot see that.
+/// for the first time, or since the robot was stopped; or to hold the button of hold-to-drive; or
+/// that the emergency stop is pressed. A person cannot see that.
 class HeldStick {
  public:
   /// Call it while there is a stick, and a robot to be moved. \param time  s, monotonic
@@ -22,7 +22,7 @@ class HeldStick {
     since_.reset();
     needed_.reset();
   }
-  /// What the person has to do, as long as it is so.
+  /// What the person has to do, as long as it is so; an emergency stop also with the stick at rest.
   [[nodiscard]] std::optional<CueKind> needed() const { return needed_; }
 
  private:

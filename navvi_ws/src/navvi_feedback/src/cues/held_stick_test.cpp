@@ -48,13 +48,21 @@ TEST_F(HeldStickTest, asks_while_a_shut_gate_is_driven_against) {
   }
 }
 
-TEST_F(HeldStickTest, C8_asks_for_nothing_that_does_not_help_while_an_emergency_stop_is_pressed) {
+TEST_F(HeldStickTest, C8_tells_an_emergency_stop_from_a_gate_that_stays_shut_after_it) {
   now_.gate = DriveState::State::stopped;
   now_.commanded.linear = 0.5;
-  now_.notices = {CueKind::emergency_stop};
-  EXPECT_EQ(pass(5.0), 0);
-  now_.notices.clear();
+  now_.notices = now_.devices.states = {CueKind::emergency_stop};
   EXPECT_EQ(pass(5.0), 2);
+  EXPECT_EQ(held_.needed(), CueKind::emergency_stop);
+  now_.devices.states.clear();
+  EXPECT_EQ(pass(5.0), 2);
+  EXPECT_EQ(held_.needed(), CueKind::release_stick) << "the gate names it still";
+  now_.commanded = {};
+  EXPECT_EQ(pass(5.0), 0);
+  EXPECT_EQ(held_.needed(), CueKind::emergency_stop) << "or a stick at rest would have opened it";
+  now_.notices.clear();
+  EXPECT_EQ(pass(5.0), 0);
+  EXPECT_FALSE(held_.needed());
 }
 
 TEST_F(HeldStickTest, passes_over_the_moment_that_a_gate_takes_to_open) {

@@ -1,5 +1,7 @@
 #include "cues/order.hpp"
 
+#include <algorithm>
+
 #include "cues/link_cues.hpp"
 
 namespace navvi_feedback::cues {
@@ -10,13 +12,17 @@ using navvi_types::Ask;
 constexpr double kShown = 4.0;  // s
 
 /// The robot cannot be driven.
-std::optional<Utterance> undriveable(const Tick& tick) {
+std::optional<Utterance> undriveable(const Tick& tick, const HeldStick& held) {
   const Observation& now = tick.now;
   if (tick.links.simulator == Link::lost) return Utterance{lost_robot(now)};
   if (tick.links.pad == Link::lost) return Utterance{lost_stick(now)};
-  if (now.gate == DriveState::State::stopped && !now.robotless)
-    return Utterance{CueKind::robot_stopped};
-  return std::nullopt;
+  if (now.robotless) return std::nullopt;
+  const bool pressed =
+      held.needed() != CueKind::release_stick &&
+      std::count(now.notices.begin(), now.notices.end(), CueKind::emergency_stop) > 0;
+  if (pressed) return Utterance{CueKind::emergency_stop};
+  const bool stopped = now.gate == DriveState::State::stopped;
+  return stopped ? std::optional(Utterance{CueKind::robot_stopped}) : std::nullopt;
 }
 
 /// As long as it is so.
@@ -58,7 +64,7 @@ void Order::update(const Tick& tick, const StateCues& state, const HeldStick& he
       event_ = Event{Utterance{cue}, cue.text, tick.time};
   }
   if (event_ && tick.time - event_->time >= kShown) event_.reset();
-  undriveable_ = undriveable(tick);
+  undriveable_ = undriveable(tick, held);
   lasting_ = lasting(tick, state, held, halt, route, leads);
   for (std::optional<Utterance>* const words : {&undriveable_, &lasting_})
     if (*words) (*words)->fillings.keys = tick.now.devices.keyboard;

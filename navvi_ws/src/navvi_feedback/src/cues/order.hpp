@@ -26,8 +26,11 @@ class Order {
   [[nodiscard]] const std::optional<Utterance>& now() const {
     return undriveable_ ? undriveable_ : event_ ? event_->words : lasting_;
   }
-  /// The wheels are stopped until the stick was released.
-  [[nodiscard]] bool stopped() const { return now() && now()->kind == CueKind::robot_stopped; }
+  /// The wheels are stopped until the stick, or the emergency stop, was released.
+  [[nodiscard]] bool stopped() const {
+    const CueKind kind = now() ? now()->kind : CueKind::lesson;
+    return kind == CueKind::robot_stopped || kind == CueKind::emergency_stop;
+  }
   /// The words, where they are those that the voice said; empty: those of now() are meant
   [[nodiscard]] std::string said() const { return !undriveable_ && event_ ? event_->text : ""; }
 
