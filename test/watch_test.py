@@ -69,7 +69,7 @@ LINES = [
     "The robot is stopped: no command came from the stick; let go of the stick. 5 s.",
     "12 m to go, the next corner in 5 m at 2 o'clock. 20 s.",
     "Wait, the way is blocked, forklift, 12 m to go. 21 s.",
-    "The way is free, wait for \"go on\", 9 m to where the map ends. 25 s.",
+    "The way is free, 9 m to where the map ends. 25 s.",
     "The trial has ended: aborted, stopped by signal. 30 s.",
     "Said: the trial is over. 32 s.",
 ]

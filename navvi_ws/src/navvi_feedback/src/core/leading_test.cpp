@@ -12,9 +12,10 @@ namespace {
 /// A person who is led to a place 20 m ahead, a bend to the right at first.
 class Leading : public testing::Test {
  protected:
-  void begin(const std::string& lead) {
+  void begin(const std::string& lead, const std::string& verbosity = "normal") {
     GuideConfig config;
     navvi_config::read(config, YAML::Load("{lead: " + lead + "}"), "test");
+    config->cues.wording.verbosity = verbosity;
     guide_ = std::make_unique<Guide>(config, cues::Phrases(kEnglish));
     devices_.hands.live = true;
     devices_.hands.axes = {0.0, 0.0};
@@ -37,7 +38,10 @@ class Leading : public testing::Test {
       output = beat(*guide_, devices_, time_);
       flow_.push_back(output.flow);
       rumble_.push_back(output.rumble);
-      for (const cues::Cue& cue : output.cues) said_.insert(cue.goes_on ? CueKind::go_on : cue.kind);
+      for (const cues::Cue& cue : output.cues) {
+        said_.insert(cue.goes_on ? CueKind::go_on : cue.kind);
+        texts_.insert(cue.text);
+      }
       for (const sounds::Play& play : output.plays) played_.insert(play.earcon);
       if (output.pattern) patterns_.insert(*output.pattern);
     }
@@ -66,6 +70,7 @@ class Leading : public testing::Test {
   double time_ = 10.0;
   std::vector<haptics::Rumble> flow_, rumble_;
   std::set<CueKind> said_;
+  std::set<std::string> texts_;
   std::set<sounds::Earcon> played_;
   std::set<haptics::Pattern> patterns_;
 };
@@ -83,13 +88,14 @@ TEST_F(Leading, by_a_sound_that_lasts_comes_from_the_side_to_steer_to_and_needs_
 }
 
 TEST_F(Leading, falls_silent_where_the_robot_is_to_stand_and_says_why) {
-  begin("flow");
+  begin("flow", "full");
   pass(2.0);
   state_ = Guidance::State::blocked;
   const haptics::Rumble none = pass(0.04).flow;
   EXPECT_EQ(none.left + none.right, 0.0);
   pass(3.0);
   EXPECT_EQ(said_.count(CueKind::blocked), 1U);
+  EXPECT_EQ(texts_.count("wait, something in the way"), 1U) << "and promises no go on";
   state_ = Guidance::State::following;
   EXPECT_GT(pass(0.5).flow.left, 0.0) << "it is go on itself";
   EXPECT_EQ(said_.count(CueKind::go_on), 0U);

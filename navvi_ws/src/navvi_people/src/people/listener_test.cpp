@@ -51,7 +51,7 @@ TEST(Listener, understands_the_sentences_of_the_voice) {
       {"straight, then 3 o'clock", Ask::go},
       {"in 20 feet, 60 degrees right", Ask::turn_ahead},
       {"wait, worker", Ask::halt},
-      {"wait, box in the way, I will say when to go on", Ask::halt},
+      {"wait, box in the way", Ask::halt},
       {"goal reached", Ask::rest},
       {"push the stick forward", Ask::go},
       {"wrong way, turn to 6 o'clock", Ask::turn}};

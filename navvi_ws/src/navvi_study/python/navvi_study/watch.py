@@ -102,7 +102,7 @@ class Teller:
             self.state, self.distance = message.state, message.goal_distance
             self.told.pop("distance", None)
             by = f", {plain(message.blocked_by)}" if message.blocked_by else ""
-            text = "The way is free, wait for \"go on\"" if waited else STATES.get(message.state, f"State {message.state}")
+            text = "The way is free" if waited else STATES.get(message.state, f"State {message.state}")
             yield "state", 1, text + by + to_go
         elif shown and stamp - self.last >= self.QUIET and abs(self.distance - message.goal_distance) >= 1.0:
             self.distance = message.goal_distance
