@@ -181,10 +181,24 @@ TEST_F(Leading, by_the_hand_stops_the_wheels_when_the_motors_are_lost) {
   begin("hand");
   devices_.hands.axes = {0.0, 1.0};
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
+  const auto drive_anew = [&] {
+    devices_.hands.axes = {0.0, 0.0};
+    pass(0.5);
+    devices_.hands.axes = {0.0, 1.0};
+    return pass(1.0).command.value().linear;
+  };
   devices_.felt = false;
   EXPECT_EQ(pass(0.02).command.value().linear, 0.0);
+  EXPECT_EQ(pass(1.0).command.value().linear, 0.0) << "until the stick was neutral";
+  steer_ = 1.2;
+  EXPECT_GT(drive_anew(), 0.5) << "by what is heard instead";
+  EXPECT_EQ(played_.count(sounds::Earcon::turn), 1U);
+  devices_.sounds = false;
+  EXPECT_EQ(pass(0.02).command.value().linear, 0.0);
+  EXPECT_EQ(drive_anew(), 0.0) << "by nothing";
   devices_.felt = true;
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0) << "until the stick was neutral";
+  EXPECT_GT(drive_anew(), 0.5);
 }
 
 TEST_F(Leading, takes_to_the_hand_only_where_no_sound_reaches_anybody) {
