@@ -187,6 +187,21 @@ TEST(Phrases, teach_the_word_to_stop_that_is_said) {
   }
 }
 
+TEST(Phrases, call_a_way_of_leading_as_the_lesson_does_that_teaches_it) {
+  for (const fs::path& language : {kEnglish, kSpanish}) {
+    const Phrases phrases(language);
+    const auto called = [&](SettingValue value) {
+      Fillings fillings;
+      fillings.setting = SettingName::lead;
+      fillings.value = value;
+      const std::string text = phrases.say({CueKind::menu, About::setting}, fillings);
+      return text.substr(text.find(", ") + 2);
+    };
+    EXPECT_TRUE(names(phrases.lessons().at("glossary_sound_turn"), called(SettingValue::ticks)));
+    EXPECT_TRUE(names(phrases.lessons().at("glossary_sound_flow"), called(SettingValue::flow)));
+  }
+}
+
 TEST(Phrases, refuse_letters_that_no_voice_reads_and_broken_utf8) {
   for (const char* text : {"caf\u00e9 ol\u00e9", "\u03bb\u03cc\u03b3\u03bf\u03c2",
                            "\u0441\u0442\u043e\u043f", "\u00dcber"})

@@ -129,6 +129,15 @@ TEST(Lessons, have_each_text_in_every_language_and_no_other) {
   }
 }
 
+TEST(Lessons, tell_when_the_stick_answers_that_a_thing_is_ahead) {
+  for (const auto& [language, when] :
+       {std::pair("en", " if it is ahead"), std::pair("es", " si est\u00e1 delante")}) {
+    const std::map<std::string, std::string> lessons = phrases(language).lessons();
+    for (const char* key : {"tutorial_near_right", "tutorial_near_right_keys"})
+      EXPECT_NE(lessons.at(key).find(when), std::string::npos) << key;
+  }
+}
+
 TEST(Lessons, teach_no_hours_to_who_hears_no_hours) {
   cues::Phrases degrees = phrases();
   degrees.use({"degrees"});
