@@ -5,9 +5,6 @@
 namespace navvi_feedback::cues {
 namespace {
 
-/// Where an hour's span has its middle, in degrees beyond the hour's own angle.
-double middle(Rounding rounding) { return rounding == Rounding::floor ? kHourDegrees / 2.0 : 0.0; }
-
 /// In [0, 360). \param angle  rad, finite
 double degrees_round(double angle) {
   const double degrees = std::fmod(angle / kDegree, 360.0);
@@ -27,7 +24,8 @@ std::optional<int> clock_hour(double angle, Rounding rounding) {
 std::optional<int> SteadyHour::update(double angle) {
   const std::optional<int> hour = clock_hour(angle, rounding_);
   if (hour && hour_) {
-    const double centre = *hour_ * kHourDegrees + middle(rounding_);
+    const double beyond = rounding_ == Rounding::floor ? kHourDegrees / 2.0 : 0.0;
+    const double centre = *hour_ * kHourDegrees + beyond;
     const double off = std::remainder(degrees_round(angle) - centre, 360.0);
     if (std::abs(off) <= kHourDegrees / 2.0 + hysteresis_ / kDegree) return hour_;
   }

@@ -91,13 +91,11 @@ void Halt::note(const CueEvent& event, bool replaced, double time) {
 bool Halt::over(const Observation& now, bool follows, bool comes, double time) {
   if (state_ == State::told && drives_on(now)) state_ = State::free;
   const bool awaits = halted() || state_ == State::told;
-  if (!awaits || !follows) led_since_.reset();
-  if (awaits && follows && !led_since_) led_since_ = time;
+  led_since_ = since_when(awaits && follows, led_since_, time);
   const bool long_led = led_since_ && time - std::max(said_, *led_since_) > kLongest;
   const bool blind = now.links.proximity == Link::lost;
   const bool may_go = led_since_ && !blind && ((clear(now) && !comes) || long_led);
-  if (!may_go) clear_since_.reset();
-  if (may_go && !clear_since_) clear_since_ = time;
+  clear_since_ = since_when(may_go, clear_since_, time);
   return may_go && time - last_ >= (halted() ? kObeyed : again_) && time - *clear_since_ >= kClear;
 }
 

@@ -37,10 +37,7 @@ void StillHand::observe(const Observation& now, double time) {
   const bool turns = std::abs(now.commanded.angular) > kNeutral.angular;
   driven = driven || drives;
   const bool in_vain = now.stick_held_unarmed || now.stick_disabled;  // HeldStick says what helps
-  if (drives || turns || in_vain || now.voice_busy)
-    since.reset();
-  else if (!since)
-    since = time;
+  since = since_when(!drives && !turns && !in_vain && !now.voice_busy, since, time);
 }
 
 bool StillHand::due(double time, double again) const {

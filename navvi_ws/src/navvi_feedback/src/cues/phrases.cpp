@@ -208,11 +208,10 @@ constexpr const char* kInstead[] = {"again", "clock", "brief", "full"};
 
 void check_sections(const std::string& name, const YAML::Node& root) {
   if (!root.IsMap()) throw ConfigError(name + ": it must be a map of sections.");
+  static const std::set<std::string> sections = {"voice", "phrases", "again",   "clock",  "brief",
+                                                 "full",  "words",   "picture", "lessons"};
   for (const auto& item : root)
-    if (const std::string key = item.first.Scalar();
-        key != "voice" && key != "phrases" && key != "words" && key != "picture" &&
-        key != "lessons" &&
-        std::find(std::begin(kInstead), std::end(kInstead), key) == std::end(kInstead))
+    if (const std::string key = item.first.Scalar(); sections.count(key) == 0)
       throw ConfigError(
           name + ", line " + std::to_string(item.first.Mark().line + 1) +
           ": there is no section \"" + navvi_config::cited(key) +
@@ -298,31 +297,28 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
   const auto missing = [&] {
     return std::logic_error("A phrase wants {" + placeholder + "}, which was not given.");
   };
-  if (placeholder == "distance") {
-    if (!fillings.distance) throw missing();
-    return distance(*fillings.distance);
-  }
-  if (placeholder == "thing" || placeholder == "a_thing") {
-    if (!fillings.thing) throw missing();
-    return words_.at((placeholder == "thing" ? "" : "a_") +
-                     std::string(to_string(*fillings.thing)));
-  }
+  const auto given = [&](const auto& value) {
+    if (!value) throw missing();
+    return *value;
+  };
+  const auto word = [&](const std::string& kind, auto value) {
+    return words_.at(kind + navvi_types::to_string(value));
+  };
+  if (placeholder == "distance") return distance(given(fillings.distance));
+  if (placeholder == "thing") return word("", given(fillings.thing));
+  if (placeholder == "a_thing") return word("a_", given(fillings.thing));
   if (kHands.count(placeholder) > 0)
     return words_.at((fillings.keys ? "key_" : "pad_") + placeholder);
-  if (placeholder == "side" || placeholder == "where") {
-    if (!fillings.side) throw missing();
-    return words_.at(placeholder + "_" + navvi_types::to_string(*fillings.side));
+  if (placeholder == "side" || placeholder == "where")
+    return word(placeholder + "_", given(fillings.side));
+  if (placeholder == "place" && !fillings.place_name.empty()) {
+    if (!is_place_name(fillings.place_name)) throw missing();
+    return fillings.place_name;
   }
   if (placeholder == "place") {
-    if (!fillings.place_name.empty()) {
-      if (!is_place_name(fillings.place_name)) throw missing();
-      return fillings.place_name;
-    }
-    if (!fillings.place) throw missing();
-    const std::string word =
-        words_.at(std::string("place_") + navvi_types::to_string(*fillings.place));
-    return fillings.number > 0 ? word + " " + std::to_string(std::min(fillings.number, kMostPlaces))
-                               : word;
+    const std::string place = word("place_", given(fillings.place));
+    const std::string number = std::to_string(std::min(fillings.number, kMostPlaces));
+    return fillings.number > 0 ? place + " " + number : place;
   }
   if (placeholder == "person") {
     std::string spoken = fillings.person;
@@ -330,14 +326,12 @@ std::string Phrases::filling(const std::string& placeholder, const Fillings& fil
     if (!speakable(spoken)) throw missing();
     return spoken;
   }
-  if (placeholder == "setting" || placeholder == "value") {
-    if (!fillings.setting) throw missing();
-    if (placeholder == "setting")
-      return words_.at(std::string("setting_") + navvi_types::to_string(*fillings.setting));
-    if (fillings.value)
-      return words_.at(std::string("value_") + navvi_types::to_string(*fillings.value));
-    const std::string text = std::to_string(std::clamp(fillings.number, 0, kMostPlaces));
-    return fillings.setting == SettingName::rate ? text : text + " " + words_.at("percent");
+  if (placeholder == "setting") return word("setting_", given(fillings.setting));
+  if (placeholder == "value" && fillings.value) return word("value_", *fillings.value);
+  if (placeholder == "value") {
+    const std::string number = std::to_string(std::clamp(fillings.number, 0, kMostPlaces));
+    const bool share = given(fillings.setting) != SettingName::rate;
+    return share ? number + " " + words_.at("percent") : number;
   }
   if (!fillings.hour || *fillings.hour < 1 || *fillings.hour > 12) throw missing();
   if (placeholder == "way") return way(*fillings.hour);

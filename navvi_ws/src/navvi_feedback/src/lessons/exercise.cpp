@@ -157,10 +157,7 @@ void Moved::observe(const Observation& seen, double dt, double time) {
   driven += step;
   to += step * Eigen::Vector2d(std::cos(turned), std::sin(turned));
   turned += seen.motion().angular * dt;
-  if (!stands(seen))
-    still.reset();
-  else if (!still)
-    still = time;
+  still = since_when(stands(seen), still, time);
 }
 
 bool Instant::settled() const { return moved.still && time - *moved.still >= kSettled; }

@@ -27,10 +27,7 @@ class Pause {
  public:
   /// \return the robot has stood in silence for long enough
   bool over(const Instant& now) {
-    if (!now.settled() || now.seen.voice_busy)
-      since_.reset();
-    else if (!since_)
-      since_ = now.time;
+    since_ = since_when(now.settled() && !now.seen.voice_busy, since_, now.time);
     return since_ && now.time - *since_ >= kBefore;
   }
 

@@ -1,6 +1,5 @@
 #include "menu/menu.hpp"
 
-
 namespace navvi_feedback::menu {
 namespace {
 
@@ -175,13 +174,11 @@ Menu::Step Menu::obey(drive::Button button) {
   }
   const bool just_begun = trial_ == TrialState::State::running && in_state_ < kTwice;
   if (button == Button::start && just_begun && path_.empty()) return {};
-  if (button == Button::end && !ending) {
-    if (trial_ != TrialState::State::running) return {cues::Utterance{entry(About::no_trial)}};
-    path_ = {{}, {List::end}};
-    return tell();
-  }
-  if (button == Button::settings) {
-    path_ = {{}, {List::settings}};
+  const bool ends = button == Button::end && !ending;
+  if (ends && trial_ != TrialState::State::running)
+    return {cues::Utterance{entry(About::no_trial)}};
+  if (ends || button == Button::settings) {
+    path_ = {{}, {ends ? List::end : List::settings}};
     return tell();
   }
   if (button == Button::start || button == Button::end) button = Button::choose;
@@ -193,12 +190,8 @@ Menu::Step Menu::obey(drive::Button button) {
     path_.pop_back();
     return tell();
   }
-  if (path_.empty()) {
-    path_.push_back({});
-    return tell();
-  }
   // What can be chosen may have changed since the last press.
-  const std::vector<Entry> list = entries(path_.back());
+  const std::vector<Entry> list = path_.empty() ? std::vector<Entry>() : entries(path_.back());
   if (list.empty()) {
     path_ = {{}};
     return tell();

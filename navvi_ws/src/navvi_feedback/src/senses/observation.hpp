@@ -21,6 +21,12 @@ enum class Lead {
 /// It leads while the person drives, without a stop before a turn.
 [[nodiscard]] constexpr bool lasts(Lead lead) { return lead == Lead::flow || lead == Lead::hand; }
 
+/// s, since when something has been so; nullopt: it is not. \param since  likewise, a moment ago
+[[nodiscard]] inline std::optional<double> since_when(bool so, std::optional<double> since,
+                                                      double time) {
+  return so ? std::optional(since.value_or(time)) : std::nullopt;
+}
+
 /// All that a person depends on.
 struct Links {
   Link pad = Link::never;
@@ -98,5 +104,6 @@ using senses::Lead;
 using senses::Link;
 using senses::Links;
 using senses::Observation;
+using senses::since_when;
 using senses::Sounds;
 }  // namespace navvi_feedback
