@@ -90,9 +90,7 @@ Utterances CuePolicy::release(const Tick& tick, const Utterances& told) {
   // A person who has just arrived lets go of the stick anyway.
   const bool driven = tick.links.pad == Link::alive && tick.links.simulator == Link::alive &&
                       !awaited(tick.now) && state_.problem() != CueKind::arrived;
-  if (driven) return held_.update(tick.now, tick.time);
-  held_.forget();
-  return {};
+  return held_.update(tick.now, driven, tick.time);
 }
 
 Utterances CuePolicy::near(const Tick& tick) {

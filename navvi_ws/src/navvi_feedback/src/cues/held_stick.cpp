@@ -26,15 +26,12 @@ std::optional<CueKind> remedy_of(const Observation& now) {
 
 }  // namespace
 
-Utterances HeldStick::update(const Observation& now, double time) {
+Utterances HeldStick::update(const Observation& now, bool driven, double time) {
   const auto names_stop = [](const std::vector<Content>& states) {
     return std::count(states.begin(), states.end(), CueKind::emergency_stop) > 0;
   };
-  const std::optional<CueKind> remedy = remedy_of(now);
-  if (!remedy)
-    since_.reset();
-  else if (!since_)
-    since_ = time;
+  const std::optional<CueKind> remedy = driven ? remedy_of(now) : std::nullopt;
+  since_ = since_when(remedy.has_value(), since_, time);
   const bool held = since_ && time - *since_ >= kHold;
   // What is pressed must be released first. The gate names it until the stick has been at rest: to
   // a held one that may be all that is left of it.

@@ -12,16 +12,11 @@ namespace navvi_feedback::cues {
 /// that the emergency stop is pressed. A person cannot see that.
 class HeldStick {
  public:
-  /// Call it while there is a stick, and a robot to be moved. \param time  s, monotonic
-  [[nodiscard]] Utterances update(const Observation& now, double time);
+  /// \param driven  there is a stick, and a robot to be moved \param time  s, monotonic
+  [[nodiscard]] Utterances update(const Observation& now, bool driven, double time);
 
   /// Another cue has just asked for the same.
   void said(double time) { said_ = time; }
-  /// There is no stick, or nothing to be moved.
-  void forget() {
-    since_.reset();
-    needed_.reset();
-  }
   /// What the person has to do, as long as it is so; an emergency stop also with the stick at rest.
   [[nodiscard]] std::optional<CueKind> needed() const { return needed_; }
 

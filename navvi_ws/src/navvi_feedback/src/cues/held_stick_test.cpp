@@ -13,7 +13,7 @@ class HeldStickTest : public testing::Test {
   int pass(double seconds) {
     int said = 0;
     for (const double end = time_ + seconds; time_ < end - 1e-9; time_ += 0.02)
-      if (!held_.update(now_, time_).empty()) ++said;
+      if (!held_.update(now_, true, time_).empty()) ++said;
     return said;
   }
 

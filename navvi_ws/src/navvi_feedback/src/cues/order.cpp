@@ -1,7 +1,5 @@
 #include "cues/order.hpp"
 
-#include <algorithm>
-
 #include "cues/link_cues.hpp"
 
 namespace navvi_feedback::cues {
@@ -16,13 +14,10 @@ std::optional<Utterance> undriveable(const Tick& tick, const HeldStick& held) {
   const Observation& now = tick.now;
   if (tick.links.simulator == Link::lost) return Utterance{lost_robot(now)};
   if (tick.links.pad == Link::lost) return Utterance{lost_stick(now)};
-  if (now.robotless) return std::nullopt;
-  const bool pressed =
-      held.needed() != CueKind::release_stick &&
-      std::count(now.notices.begin(), now.notices.end(), CueKind::emergency_stop) > 0;
-  if (pressed) return Utterance{CueKind::emergency_stop};
-  const bool stopped = now.gate == DriveState::State::stopped;
-  return stopped ? std::optional(Utterance{CueKind::robot_stopped}) : std::nullopt;
+  if (held.needed() == CueKind::emergency_stop) return Utterance{CueKind::emergency_stop};
+  if (now.gate == DriveState::State::stopped && !now.robotless)
+    return Utterance{CueKind::robot_stopped};
+  return std::nullopt;
 }
 
 /// As long as it is so.
