@@ -95,7 +95,7 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   teacher.update(now, time);
   const cues::Asked asked = obey(now, dt, out);
   decided = policy.update(now, asked, time);
-  teacher.join(decided);
+  teacher.join(decided, queue.empty());
   if (!teacher.speaks()) lesson.reset();
   touch.begin(decided, now, teacher.taught());
   decided.erase(std::remove_if(decided.begin(), decided.end(),
@@ -166,7 +166,7 @@ Observation Guide::Parts::observe(const Devices& devices, double dt, double time
   now.stick_held_unarmed = held_unarmed && !now.robotless;
   now.stick_disabled = pushed_disabled && !now.robotless;
   now.commanded = commanded;
-  now.voice_busy = !queue.empty();
+  now.voice_busy = !queue.empty() || teacher.helps();
   now.begun = std::exchange(begun, {});
   const haptics::HapticsConfig& haptics = config.haptics;
   now.motors = devices.felt && haptics.enabled;
@@ -201,7 +201,7 @@ void Guide::Parts::say(const cues::CueQueue::Step& step, const Devices& devices,
     const navvi_types::Spoken* const spoken = event.spoken();
     if (event.stage == CueStage::ended && event.kind() == CueKind::which_side) side.told();
     if (event.stage == CueStage::started && spoken) begun.push_back(spoken->lesson);
-    if (event.stage == CueStage::started && spoken && !spoken->lesson.empty()) {
+    if (event.stage == CueStage::started && spoken && !spoken->lesson.empty() && teacher.speaks()) {
       // Also where it says what the guide would say.
       lesson = cues::Cue{CueKind::lesson, event.text, event.priority};
       lesson->lesson = spoken->lesson;

@@ -24,6 +24,7 @@ cues::Asked Guide::Parts::obey(const Observation& now, double dt, Output& out) {
     if (!teacher.takes(button)) pressed.push_back(button);
   cues::Asked asked;
   for (const drive::Button button : pressed) {
+    teacher.press(button, now.devices.keyboard);
     if (drive::is_question(button)) asked.question = button;
     if (button == drive::Button::goal && now.lead == Lead::hand && now.goal_angle)
       touch.answer(*now.goal_angle, now.goal_straight);

@@ -197,6 +197,45 @@ TEST_F(GuideTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_onc
   EXPECT_EQ(played(sounds::Earcon::hit_shelf), 1);
 }
 
+TEST(Help, tells_the_buttons_as_they_are_assigned) {
+  using Texts = std::vector<std::string>;
+  const auto told = [](const GuideConfig& config, bool keyboard) {
+    Guide guide(config, cues::Phrases(kEnglish));
+    Devices input;
+    input.hands.live = true;
+    input.keyboard = keyboard;
+    input.asked = {drive::Button::help};
+    Texts texts;
+    for (double time = 10.0; time < 12.0; time += 0.02) {
+      for (const cues::Cue& cue : beat(guide, input, time).cues)
+        if (cue.kind == CueKind::lesson) texts.push_back(cue.text);
+      input.asked.clear();
+    }
+    return texts;
+  };
+  GuideConfig config;
+  EXPECT_EQ(told(config, false),
+            (Texts{"the lower button repeats", "the right button tells the goal",
+                   "the left button tells what is near", "the top button tells your place",
+                   "the right shoulder button tells the next turn",
+                   "arrow down opens the menu with goals and settings"}));
+  EXPECT_EQ(told(config, true).at(1), "the letter G tells the goal");
+  auto& index = config->buttons.index;
+  std::swap(index.at(1), index.at(2));  // goal and around
+  index.at(4) = -1;                     // turn
+  const Texts moved = told(config, false);
+  ASSERT_EQ(moved.size(), 5U);
+  EXPECT_EQ(moved[1], "the left button tells the goal");
+  EXPECT_EQ(moved[2], "the right button tells what is near");
+}
+
+TEST_F(GuideTest, help_ends_where_another_button_is_pressed) {
+  ask({drive::Button::help});
+  ask({drive::Button::around});
+  pass(1.0);
+  EXPECT_EQ(count(CueKind::lesson), 1);
+}
+
 TEST_F(GuideTest, no_way_of_leading_is_offered_with_which_it_would_not_start_anew) {
   using Ways = std::set<std::string>;
   for (const bool haptics : {true, false})

@@ -41,8 +41,6 @@ std::optional<Utterance> about(Button question, const Tick& tick, Rounding round
     const auto stops = far ? stops_before(now.nearby, now.stops_in) : std::nullopt;
     return stops ? stops : around(now.nearby);
   }
-  if (question == Button::help)
-    return Utterance{{CueKind::answer, now.devices.keyboard ? About::help_keys : About::help_pad}};
   if (question == Button::where && (now.place || (to_goal && now.goal_angle)))
     return where_am_i(now, rounding);
   const bool ends = to_goal && now.guidance->ends_short && now.guidance->turn_angle == 0.0;
@@ -102,9 +100,7 @@ Utterances Answers::update(const Tick& tick, RouteCues& route, const Halt& halt,
   answer->priority = Priority::message;
   answer->asked = true;
   answered_ = *answer;
-  Utterances answers = {*answer};
-  if (question == Button::help) answers.push_back({CueKind::help_menu});
-  return answers;
+  return {*answer};
 }
 
 void Answers::yield(Utterances& answer) {

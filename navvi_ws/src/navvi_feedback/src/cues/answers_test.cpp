@@ -64,16 +64,13 @@ TEST_F(AnswersTest, tells_where_one_is_and_the_goal_from_there_in_one_frame) {
   EXPECT_EQ(ask(Button::where), Texts{"you have reached the goal"});
 }
 
-TEST_F(AnswersTest, tells_the_next_turn_and_what_the_buttons_do) {
+TEST_F(AnswersTest, tells_the_next_turn) {
   under_way();
   EXPECT_EQ(ask(Button::turn), Texts{"drive straight, 20 meters"}) << "none before the goal";
   now_.guidance->waypoint_is_goal = false;
   now_.guidance->turn_angle = 1.6;
   now_.guidance->waypoint_distance = 18.0;
   EXPECT_EQ(ask(Button::turn), Texts{"in 18 meters, turn to 3 o'clock"});
-  EXPECT_EQ(ask(Button::help).at(0).substr(0, 13), "press bottom ");
-  now_.devices.keyboard = true;
-  EXPECT_EQ(ask(Button::help).at(0).substr(0, 13), "space repeats");
 }
 
 TEST_F(AnswersTest, tells_what_is_around_clockwise_from_the_nearest) {

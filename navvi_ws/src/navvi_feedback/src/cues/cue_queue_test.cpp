@@ -14,10 +14,10 @@ namespace {
 /// Some words have short names.
 Content content_of(const std::string& name) {
   static const std::map<std::string, std::string> names = {
-      {"0", "goal_chosen"}, {"1", "goal_sure"},   {"2", "menu_begin"}, {"3", "menu_goals"},
-      {"4", "menu_place"},  {"5", "menu_end"},    {"6", "menu_empty"}, {"7", "menu_closed"},
-      {"8", "no_trial"},    {"9", "setting"},     {"a", "where"},      {"b", "around"},
-      {"c", "no_goal"},     {"d", "help_pad"},    {"e", "help_keys"},  {"f", "goal_info"},
+      {"0", "goal_chosen"}, {"1", "goal_sure"},       {"2", "menu_begin"},     {"3", "menu_goals"},
+      {"4", "menu_place"},  {"5", "menu_end"},        {"6", "menu_empty"},     {"7", "menu_closed"},
+      {"8", "no_trial"},    {"9", "setting"},         {"a", "where"},          {"b", "around"},
+      {"c", "no_goal"},     {"d", "where_place"},     {"e", "around_nothing"}, {"f", "goal_info"},
       {"s", "pad_lost"},    {"hit", "collision_wall"}};
   const auto found = names.find(name);
   return *navvi_types::from_word<Content>(found != names.end() ? found->second : name);

@@ -20,9 +20,9 @@ constexpr int kMostPlaces = 999;          // of one name that are told by number
 
 const std::set<std::string> kPlaceholders = {
     "direction", "way",   "distance", "thing", "a_thing", "side", "where", "place",
-    "setting",   "value", "person",   "stick", "push",    "menu", "more",  "less",  "begin"};
+    "setting",   "value", "person",   "stick", "push",    "more", "less",  "begin"};
 /// Words for the hands: one for those on a pad, one for those on the keys.
-const std::set<std::string> kHands = {"stick", "push", "menu", "more", "less", "begin"};
+const std::set<std::string> kHands = {"stick", "push", "more", "less", "begin"};
 /// Phrases whose {place} may have a name of its own: those of the menu.
 const std::set<std::string> kNaming = {"menu_place", "goal_chosen", "goal_sure", "place_saved",
                                        "press_pick", "press_drop", "press_scan",

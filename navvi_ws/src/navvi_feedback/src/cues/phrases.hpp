@@ -75,7 +75,7 @@ using Utterances = std::vector<Utterance>;
 /// ahead" in all of them, {distance} a distance with its unit,
 /// {thing} a thing's noun, {a_thing} with its article, {side} "left", {where} "on your
 /// left", {place} "dock 2", {setting} what can be set, {value} to what, {person} a name; {stick}
-/// what the hand is on, {push} how it drives ahead, {menu}, {more} and {less} what it presses: of
+/// what the hand is on, {push} how it drives ahead, {more}, {less} and {begin} what it presses: of
 /// the pad, or of the keyboard.
 class Phrases {
  public:

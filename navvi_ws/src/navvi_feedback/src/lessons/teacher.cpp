@@ -18,7 +18,8 @@ Teacher::Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsC
       buttons_(buttons),
       haptics_(haptics),
       sounds_(sounds),
-      robot_delay_(robot_delay) {
+      robot_delay_(robot_delay),
+      help_(phrases_, buttons_, std::vector<std::string>(has_glossary() ? 1 : 0, "help")) {
   if (first_ == "questionnaire") questions_ = read_questions(questions);
   // A text that is missing is told now, and not once a lesson is chosen.
   if (has_glossary()) begin("glossary", "");
@@ -53,7 +54,13 @@ void Teacher::update(const Observation& seen, double time) {
   if (teaching()) taught_ = lesson_->update(seen, time);
 }
 
-void Teacher::join(std::vector<cues::Cue>& cues) const {
+void Teacher::press(drive::Button button, bool keyboard) {
+  help_.forget();
+  help_.hands(keyboard);
+  if (button == drive::Button::help && has_glossary()) help_.tell("help");
+}
+
+void Teacher::join(std::vector<cues::Cue>& cues, bool quiet) {
   static const std::set<Content> needed = {
       CueKind::arrived, CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away,
       CueKind::release_stick, CueKind::pad_back, {CueKind::back, About::keyboard},
@@ -68,7 +75,11 @@ void Teacher::join(std::vector<cues::Cue>& cues) const {
                                        needed.count(cue) == 0;
                               }),
                cues.end());
+  // A lesson speaks meanwhile only where that cannot wait.
+  if (!taught_.cues.empty()) help_.forget();
   cues.insert(cues.end(), taught_.cues.begin(), taught_.cues.end());
+  const std::vector<cues::Cue> help = help_.update(quiet && cues.empty());
+  cues.insert(cues.end(), help.begin(), help.end());
 }
 
 }  // namespace navvi_feedback::lessons

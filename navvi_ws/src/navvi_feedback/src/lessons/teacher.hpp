@@ -7,6 +7,7 @@
 #include "cues/phrases.hpp"
 #include "lessons/lesson.hpp"
 #include "lessons/questionnaire.hpp"
+#include "lessons/teller.hpp"
 #include "sounds/sounds_config.hpp"
 
 namespace navvi_feedback::lessons {
@@ -34,6 +35,11 @@ class Teacher {
   /// with the beginning of a trial. \param time  s, of a clock that does not run backwards
   void update(const Observation& seen, double time);
 
+  /// Help tells what the buttons do; any other button ends that. \param keyboard  by the keys
+  void press(drive::Button button, bool keyboard);
+  /// That is being told.
+  [[nodiscard]] bool helps() const { return !help_.done(); }
+
   [[nodiscard]] bool teaching() const { return lesson_ && !lesson_->over(); }
   /// The first lesson wants no robot: nothing else goes on.
   [[nodiscard]] bool alone() const { return first_ != "none" && first_ != "tutorial"; }
@@ -44,8 +50,9 @@ class Teacher {
     return teaching() && lesson_->takes(button);
   }
   [[nodiscard]] const Taught& taught() const { return taught_; }
-  /// Leaves what may be said while a lesson speaks, and adds what the lesson says.
-  void join(std::vector<cues::Cue>& cues) const;
+  /// Leaves what may be said while a lesson speaks, and adds what the lesson and help say.
+  /// \param quiet  nothing is spoken or waits for it
+  void join(std::vector<cues::Cue>& cues, bool quiet);
 
   [[nodiscard]] bool over() const { return first_ != "none" && lesson_ && lesson_->over(); }
   [[nodiscard]] std::string record() const { return lesson_ ? lesson_->record() : ""; }
@@ -63,6 +70,7 @@ class Teacher {
   std::vector<Question> questions_;
   std::unique_ptr<Lesson> lesson_;
   Taught taught_;  ///< now
+  Teller help_;
 };
 
 }  // namespace navvi_feedback::lessons

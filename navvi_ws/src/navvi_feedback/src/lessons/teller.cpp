@@ -54,7 +54,8 @@ std::vector<std::string> Teller::sentences(const std::string& key, const Filling
   std::vector<std::string> result;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(". ", begin), text.size());
-    result.push_back(text.substr(begin, end - begin));
+    // Of what no button does nothing is told.
+    if (text.compare(begin, 2, "- ") != 0) result.push_back(text.substr(begin, end - begin));
     begin = end + 2;
   }
   return result;

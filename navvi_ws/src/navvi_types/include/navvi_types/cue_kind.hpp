@@ -30,7 +30,7 @@ enum class CueKind : std::uint8_t {
   start, toward_goal, goal_seen, direction, straight, slight, turn_ahead, wrong_way, off_path,
   turn_cancelled, push, rerouted, new_route, near, close,
   // On demand, and by the way; an answer stays true while it waits to be spoken.
-  goal_info, around, stops_before, where, answer, help_menu, welcome,
+  goal_info, around, stops_before, where, answer, welcome,
   // Not in the phrases: a sentence of a lesson has a key of its own.
   lesson,
 };
@@ -52,7 +52,7 @@ enum class About : std::uint8_t {
   time_up, over,
   distance, side, blocked, then, goal,
   new_route, way_blocked,
-  no_goal, around_nothing, where_place, help_pad, help_keys,
+  no_goal, around_nothing, where_place,
 };
 /// A kind has the word of its row.
 void names(CueKind) = delete;
@@ -204,8 +204,7 @@ inline constexpr CueTraits kRows[] = {
     {K::stops_before, "stops_before", P::text, 0.5, 1.0},
     {K::where, "where_*", P::text, 0.5, 1.0, F::other, A::nothing, false, {}, {B::none, B::goal}},
     {K::answer, "*", P::text, 0.5, 4.0, F::other, A::nothing, false, {},
-     {B::no_goal, B::around_nothing, B::where_place, B::help_pad, B::help_keys}},
-    {K::help_menu, "help_menu", P::text, 0.5, 8.0},
+     {B::no_goal, B::around_nothing, B::where_place}},
     {K::welcome, "welcome", P::notification, 5.0, 10.0},
     // A lesson's.
     {K::lesson, "lesson", P::message, 0.0, 20.0},

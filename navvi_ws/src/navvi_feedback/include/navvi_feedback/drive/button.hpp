@@ -4,7 +4,7 @@
 
 namespace navvi_feedback::drive {
 
-/// What a person asks for by a button; up to help these are questions.
+/// What a person asks for by a button; up to turn these are questions about the way.
 enum class Button {
   repeat,  ///< the last direction again
   goal,    ///< where it is
@@ -24,6 +24,6 @@ enum class Button {
 constexpr std::size_t kButtons = 14;
 
 /// Of the first of them.
-[[nodiscard]] constexpr bool is_question(Button button) { return button <= Button::help; }
+[[nodiscard]] constexpr bool is_question(Button button) { return button < Button::help; }
 
 }  // namespace navvi_feedback::drive
