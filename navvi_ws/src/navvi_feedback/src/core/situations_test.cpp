@@ -195,7 +195,19 @@ const std::vector<Row> kTable = {
      [](Scene& now) {
        now.notices = {{CueKind::trial_ends, About::time_up}};
      },
-     "time is up, the trial is over", "", ""},
+     "time is up, the trial is over", "stopped", ""},
+    {"the disk is full",
+     [](Scene& now) {
+       now.notices = {CueKind::trial_disk_full};
+     },
+     "the disk is full, the trial is over", "stopped", ""},
+    {"the next trial waits for a goal",
+     [](Scene& now) {
+       stand(now);
+       become(now, State::arrived);
+       now.trial = TrialState::State::choose_goal;
+     },
+     "choose a goal", "ready", ""},
     // Questions.
     {"asks for the goal", [](Scene& now) { now.asked = drive::Button::goal; },
      "the goal is 20 meters on", "", ""},

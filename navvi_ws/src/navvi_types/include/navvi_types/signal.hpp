@@ -9,7 +9,7 @@ namespace navvi_types {
 /// Patterns of the pad's motors, felt besides what is near; the most urgent last.
 enum class Pattern : std::uint8_t {
   sample,        ///< one long pulse: how strong the motors are set
-  ready,         ///< two light taps: a trial waits for the person
+  ready,         ///< two light taps: a trial waits for the person, or for a goal
   begun,         ///< one light tap: it runs
   assisted,      ///< a soft pulse, on the side to which the robot steers by itself
   rerouted,      ///< a light tap on the left, then on the right
@@ -18,7 +18,7 @@ enum class Pattern : std::uint8_t {
   answer,        ///< a long pulse on the side of the goal, then a tap for each 5 m to it
   stuck,         ///< four quick taps
   halt,          ///< a short and a long pulse: the word is to stop, or to wait
-  stopped,       ///< two long pulses: the robot was stopped
+  stopped,       ///< two long pulses: the robot was stopped, or the trial
   hit_obstacle,  ///< two hard knocks, on its side
   hit_shelf,     ///< one long hard pulse, on its side: a shelf or a wall
 };
