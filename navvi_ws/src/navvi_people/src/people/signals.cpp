@@ -4,6 +4,8 @@
 
 namespace navvi_people::people {
 
+constexpr double kOffAhead = 0.5;  // m, away from what holds a robot that was driven back
+
 void SimulatedOperator::react(const Tone& tone, double time) {
   switch (tone.earcon) {
     case Earcon::turn:
@@ -39,14 +41,15 @@ void SimulatedOperator::react(const Tone& tone, double time) {
 
 void SimulatedOperator::react(Meaning meaning, double time) {
   if (now_.mode == Mode::arrived) return;
-  // Where nothing is said, the lesson has taught to back up a little from what holds the robot.
+  // Where nothing is said, the lesson has taught to drive off a little from what holds the robot.
   const bool untold = config_.lead == "hand" && !ears_.listen();
   switch (meaning) {
     case Meaning::none:
       return;
     case Meaning::stuck:
-      if (untold) now_.back_off(Instruction::Side::none, time);
-      return;
+      if (!untold) return;
+      if (now_.pulled) return now_.try_ahead(kOffAhead);
+      return now_.back_off(Instruction::Side::none, time);
     case Meaning::ready:
       // Once under way, what feels like it is something else.
       if (now_.at.odometer == 0.0) now_.press_start(time);

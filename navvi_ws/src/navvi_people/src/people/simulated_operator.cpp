@@ -150,6 +150,7 @@ void SimulatedOperator::believe(const StickAndButtons& hand, double dt) {
   now_.at.heading += driving_.shaped(hand.left) * driving.kTurnRate * dt;
   if (now_.mode == Mode::driving && hand.forward > 0.0) now_.at.heading += driving_.veered(driven);
   now_.at.odometer += driven * driving_.speed_gain();
+  if (hand.forward != 0.0 || hand.left != 0.0) now_.pulled = hand.forward < 0.0;
 }
 
 StickAndButtons SimulatedOperator::update(double time, double dt) {

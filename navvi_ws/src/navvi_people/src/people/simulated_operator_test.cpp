@@ -266,6 +266,37 @@ TEST(SimulatedOperator, stops_for_what_is_ahead_until_it_is_told_to_go_on) {
   EXPECT_GT(loop.x, stopped);
 }
 
+TEST(SimulatedOperator, who_is_led_by_hand_drives_off_to_the_other_side_of_what_holds_the_robot) {
+  SimulatedOperatorConfig config = steady(1);
+  config.lead = "hand";
+  config.feeling.faults = false;
+  Loop loop(config, 1);
+  const auto feel_four_taps = [&] {
+    for (int tap = 0; tap < 4; ++tap)
+      for (const double force : {0.8, 0.0}) {
+        loop.person.feel({force, force}, loop.time);
+        loop.pass(4);
+      }
+  };
+  /// The next move of the stick, forward, within 4 s.
+  const auto pushes = [&] {
+    double forward = 0.0;
+    for (int i = 0; i < 200 && forward == 0.0; ++i) forward = loop.pass(1).forward;
+    return forward;
+  };
+  loop.pass(100);
+  loop.say("welcome, waiting for a goal");
+  loop.pass(100);
+  feel_four_taps();
+  EXPECT_LT(pushes(), 0.0);
+  feel_four_taps();
+  while (loop.pass(1).forward < 0.0) continue;
+  const double held = loop.x;
+  EXPECT_GT(pushes(), 0.0);
+  loop.pass(200);
+  EXPECT_NEAR(loop.x, held + 0.5, 0.2) << "a little";
+}
+
 TEST(SimulatedOperator, goes_slower_while_both_motors_are_strong) {
   const auto covered = [](double motors) {
     Loop loop;

@@ -143,10 +143,10 @@ void Situation::ask_soon(double time) {
   news = time - idle_patience + 0.4;
 }
 
-void Situation::try_ahead() {
+void Situation::try_ahead(double way) {
   mode = Mode::driving;
   course.target = at.heading;
-  course.stop_at = at.odometer + 0.5 * kTrust;
+  course.stop_at = at.odometer + way;
   course.speed = kSlow;
 }
 

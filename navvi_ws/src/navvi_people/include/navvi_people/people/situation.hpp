@@ -23,7 +23,7 @@ namespace navvi_people::people {
 /// | `back_off`       | backing, waiting from behind | as headed, then veers          | careful       |
 /// | `wait_for_go_on` |                              |                                | waits         |
 /// | `ask_soon`       | waiting                      |                                | news, long ago|
-/// | `try_ahead`      | driving                      | as headed, a few metres, slow  |               |
+/// | `try_ahead`      | driving                      | as headed, that far, slow      |               |
 ///
 /// * unless told to halt. Times are s, on the clock of SimulatedOperator::update().
 struct Situation {
@@ -76,6 +76,7 @@ struct Situation {
   double careful_until = 0.0;
   double backs_until = 0.0;
   bool off_left = false;  ///< after the last bump into nobody knows what
+  bool pulled = false;    ///< the stick was moved last to drive back
 
   /// \param much  is left to turn; nullopt: as slow ticks tell
   void hear_tick(Side side, std::optional<bool> much, double time);
@@ -94,7 +95,8 @@ struct Situation {
   void back_off(Side side, double time);
   void wait_for_go_on(const Sentence& sentence);
   void ask_soon(double time);
-  void try_ahead();
+  /// \param way  m
+  void try_ahead(double way = 0.5 * kTrust);
   /// Words and taps ask for it at about the same time.
   void press_start(double time);
 
