@@ -15,6 +15,7 @@ constexpr double kApart = 0.4;
 constexpr double kAhead = 0.79;      // rad
 constexpr double kMetresATap = 5.0;  // m
 constexpr double kMostTaps = 8.0;
+constexpr int kTaughtTaps = 3;
 
 bool is_hit(haptics::Pattern pattern) {
   return pattern == haptics::Pattern::hit_obstacle || pattern == haptics::Pattern::hit_shelf;
@@ -70,7 +71,8 @@ bool HapticDisplay::report(Link audio, bool motors) {
 void HapticDisplay::begin(const std::vector<cues::Cue>& cues, const Observation& now,
                           const lessons::Taught& taught) {
   if (!config_.enabled || !config_.patterns) return;
-  if (taught.pattern) patterns_.begin(*taught.pattern, taught.side);
+  const int taps = taught.pattern == haptics::Pattern::answer ? kTaughtTaps : 0;
+  if (taught.pattern) patterns_.begin(*taught.pattern, taught.side, taps);
   // The pulses of the way tell of a new route.
   for (const cues::Cue& cue : cues)
     if (const auto pattern = pattern_of(cue, deaf_);

@@ -58,6 +58,24 @@ TEST_F(GuideTest, a_hit_is_felt_at_once_on_its_side_whatever_else_is_felt) {
   EXPECT_EQ(output.rumble.right, 0.0);
 }
 
+TEST(HapticDisplay, gives_the_answer_of_a_lesson_on_its_side_and_with_three_taps) {
+  HapticDisplay display({});
+  lessons::Taught taught;
+  taught.pattern = haptics::Pattern::answer;
+  taught.side = haptics::Zone::left;
+  display.begin({}, {}, taught);
+  int left = 0, right = 0;
+  haptics::Rumble last;
+  for (int i = 0; i < 150; ++i) {
+    const haptics::Rumble now = display.update({}, std::nullopt, {}, false, 0.02);
+    left += now.left > 0.0 && last.left == 0.0 ? 1 : 0;
+    right += now.right > 0.0 && last.right == 0.0 ? 1 : 0;
+    last = now;
+  }
+  EXPECT_EQ(left, 4);
+  EXPECT_EQ(right, 3);
+}
+
 TEST_F(GuideTest, patterns_are_left_out_where_touch_is_not_wanted) {
   for (const char* text : {"haptics: {enabled: false}", "haptics: {patterns: false}"}) {
     GuideConfig config;

@@ -29,8 +29,8 @@ constexpr double kWide = 0.7;
 constexpr int kAside = 4;
 
 bool sided(Pattern pattern) {
-  return pattern == Pattern::assisted || pattern == Pattern::hit_obstacle ||
-         pattern == Pattern::hit_shelf;
+  return pattern == Pattern::assisted || pattern == Pattern::answer ||
+         pattern == Pattern::hit_obstacle || pattern == Pattern::hit_shelf;
 }
 
 }  // namespace
@@ -171,7 +171,8 @@ void Glossary::give(const Entry& entry, double since, Taught& taught) {
     return;
   }
   const int times = entry.words ? 1 : 2;
-  if (!entry.near && beats_ < times && since >= beats_ * kBeat * (entry.pattern ? 1.8 : 1.0)) {
+  const double lasts = entry.pattern == Pattern::answer ? 2.9 : entry.pattern ? 1.8 : 1.0;
+  if (!entry.near && beats_ < times && since >= beats_ * kBeat * lasts) {
     beat(entry, taught);
     ++beats_;
   }

@@ -35,6 +35,7 @@ class GlossaryTest : public testing::Test {
         speaks_until_ = time_ + 1.0;
       }
       if (taught.pattern) felt_.push_back(*taught.pattern);
+      if (taught.pattern) sides_[*taught.pattern].push_back(taught.side);
       if (taught.off) ++counted_;
       if (taught.course) ++shown_[taught.course->lead];
       near_ += taught.near.empty() ? 0 : 1;
@@ -58,6 +59,7 @@ class GlossaryTest : public testing::Test {
   double speaks_until_ = 0.0;
   std::vector<std::string> kinds_;
   std::vector<haptics::Pattern> felt_;
+  std::map<haptics::Pattern, std::vector<haptics::Zone>> sides_;
   std::set<sounds::Earcon> heard_;
   int counted_ = 0;
   std::map<Lead, int> shown_;
@@ -69,6 +71,9 @@ TEST_F(GlossaryTest, gives_every_pattern_sound_and_word_one_after_another) {
     hear(i > 0 ? std::optional(Button::next) : std::nullopt);
   EXPECT_TRUE(glossary_.over());
   EXPECT_EQ(felt_.size(), 2 * names(haptics::Pattern{}).size());
+  using haptics::Zone;
+  EXPECT_EQ(sides_[haptics::Pattern::answer], (std::vector{Zone::left, Zone::right}));
+  EXPECT_EQ(sides_[haptics::Pattern::halt], (std::vector{Zone::center, Zone::center}));
   EXPECT_EQ(heard_.size() + 2, names(sounds::Earcon{}).size())
       << "all but the one that is counted and the one that lasts";
   EXPECT_GT(shown_[Lead::flow], 150);
