@@ -137,7 +137,17 @@ TEST_F(SidesTest, are_not_asked_for_where_they_are_known_or_nothing_sounds) {
   input_.sounds = true;
   input_.ears.clear();  // a simulated person
   wait(3.0);
+  input_.ears = "usb_headphones";
+  for (const char* lead : {"hand", "words"}) {
+    GuideConfig no_sound_leads;
+    no_sound_leads->lead = lead;
+    guide_.use(no_sound_leads);
+    wait(3.0);
+  }
   EXPECT_FALSE(said(CueKind::which_side));
+  guide_.use({});
+  wait(3.0);
+  EXPECT_TRUE(said(CueKind::which_side));
 }
 
 }  // namespace
