@@ -70,8 +70,8 @@ std::vector<Note> notes(sounds::Earcon earcon) {
       return {{V::clang, 620.0, 620.0, 0.12}};
     case Earcon::worker_near:  // a whistle
       return {{V::flute, 900.0, 1500.0, 0.12}, {V::flute, 1500.0, 1100.0, 0.12}};
-    case Earcon::forklift_near:  // as it sounds when it backs
-      return {{V::horn, 1000.0, 1000.0, 0.13}, kRest, {V::horn, 1000.0, 1000.0, 0.13}};
+    case Earcon::forklift_near:
+      return {{V::horn, 1000.0, 1000.0, 0.3}};
     case Earcon::pallet_robot_near:  // three steps down
       return {{V::flute, 2000.0, 2000.0, 0.05},
               {V::flute, 1500.0, 1500.0, 0.05},

@@ -64,6 +64,27 @@ TEST(Earcons, are_short_begin_and_end_without_a_click_and_do_not_clip) {
   EXPECT_LT(synthesize(Earcon::turn).duration(), 0.1) << "its ticks must not run into each other";
 }
 
+/// Parts of it with a pause of 30 ms or more between two.
+int bursts(const Sound& sound) {
+  int count = 0;
+  std::size_t silent = sound.samples.size();
+  for (const std::int16_t sample : sound.samples) {
+    const bool loud = std::abs(sample) > 300;
+    if (loud && silent > static_cast<std::size_t>(0.03 * sound.rate)) ++count;
+    silent = loud ? 0 : silent + 1;
+  }
+  return count;
+}
+
+TEST(Earcons, sound_once_of_what_is_near_and_twice_of_what_is_very_close) {
+  for (const Earcon near : {Earcon::shelf_near, Earcon::worker_near, Earcon::forklift_near,
+                            Earcon::pallet_robot_near, Earcon::thing_near}) {
+    const auto close = static_cast<Earcon>(static_cast<int>(near) + 1);
+    EXPECT_EQ(bursts(synthesize(near)), 1) << to_string(near);
+    EXPECT_EQ(bursts(synthesize(close)), 2) << to_string(close);
+  }
+}
+
 TEST(Earcons, have_one_that_can_be_repeated_without_a_click) {
   const std::vector<std::int16_t> samples = synthesize(Earcon::flow).samples;
   int most = 0;
