@@ -71,12 +71,7 @@ using Utterances = std::vector<Utterance>;
 /// The spoken sentences of one language (safety rule 4): templates from a file with numbers, and
 /// words from the same file, put in. No text of any message can reach the voice.
 ///
-/// Placeholders: {direction} an hour as the wording has it, {way} likewise, but "straight
-/// ahead" in all of them, {distance} a distance with its unit,
-/// {thing} a thing's noun, {a_thing} with its article, {side} "left", {where} "on your
-/// left", {place} "dock 2", {setting} what can be set, {value} to what, {person} a name; {stick}
-/// what the hand is on, {push} how it drives ahead, {more}, {less} and {begin} what it presses: of
-/// the pad, or of the keyboard.
+/// The placeholders stand at the top of config/phrases/en.yaml.
 class Phrases {
  public:
   /// \param file  with the sections voice, phrases, words, picture; in clock, brief and full stand

@@ -30,16 +30,12 @@ haptics::Rumble pulse_of(double turn) {
 }  // namespace
 
 haptics::Rumble HandPulses::update(std::optional<Course> course, double dt) {
-  if (!course) {
+  const bool stands = !course || course->speed < kLeast;
+  if (!course || (stands && std::abs(course->turn) < kWorthTurning)) {
     *this = {};
     return {};
   }
   if (since_) *since_ += dt;
-  const bool stands = course->speed < kLeast;
-  if (stands && std::abs(course->turn) < kWorthTurning) {
-    *this = {};
-    return {};
-  }
   if (stands || std::abs(course->turn) > kOnTheSpot) {
     pulse_ = pulse_of(course->turn);
     unbroken_ = true;

@@ -133,16 +133,13 @@ Taught Questionnaire::update(const Observation& seen, double time) {
   }
   if (!finished_) {
     for (const Button button : seen.pressed) obey(button);
-    if (!all_asked() && questions_[at_].point) {
-      point(seen.stick);
-    } else {
-      lean(seen.stick);
-    }
+    !all_asked() && questions_[at_].point ? point(seen.stick) : lean(seen.stick);
   }
   Taught taught;
   taught.cues = teller_.update(!seen.voice_busy);
-  if (!heard_ && teller_.done() && !seen.voice_busy && taught.cues.empty()) heard_ = time;
-  over_ = finished_ && teller_.done() && !seen.voice_busy && taught.cues.empty();
+  const bool silent = teller_.done() && !seen.voice_busy && taught.cues.empty();
+  if (!heard_ && silent) heard_ = time;
+  over_ = finished_ && silent;
   return taught;
 }
 
