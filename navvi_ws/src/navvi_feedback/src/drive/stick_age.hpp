@@ -1,7 +1,6 @@
 #pragma once
 
-#include <deque>
-#include <utility>
+#include <limits>
 
 namespace navvi_feedback::drive {
 
@@ -13,15 +12,17 @@ class StickAge {
 
   /// \param age  s, from the stamp to the arrival; negative where the stamp is ahead
   /// \param time  s, of the arrival, on a clock that does not run backwards
-  void add(double age, double time);
+  void add(double age, double time) {
+    age_ = age;
+    time_ = time;
+  }
   /// By the last message: above 0.3 s old is slow; above 1 s, or as much ahead, too late. no once
   /// the last came 0.25 s ago.
   [[nodiscard]] Late late(double time) const;
-  /// s, of the last 5 s: a delay or a difference of clocks that lasts. 0 without messages.
-  [[nodiscard]] double median() const;
 
  private:
-  std::deque<std::pair<double, double>> ages_;  ///< s, time and age
+  double age_ = 0.0;                                        ///< s, of the last message
+  double time_ = -std::numeric_limits<double>::infinity();  ///< s, when it came
 };
 
 }  // namespace navvi_feedback::drive

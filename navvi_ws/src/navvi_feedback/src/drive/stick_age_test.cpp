@@ -12,7 +12,6 @@ using Late = StickAge::Late;
 TEST(StickAge, knows_of_no_delay_before_the_first_message_and_after_the_last) {
   StickAge age;
   EXPECT_EQ(age.late(1.0), Late::no);
-  EXPECT_EQ(age.median(), 0.0);
   age.add(3.0, 1.0);
   EXPECT_EQ(age.late(1.2), Late::too_late);
   EXPECT_EQ(age.late(1.3), Late::no) << "it is lost, which is told";
@@ -31,15 +30,6 @@ TEST(StickAge, C6_slows_above_300_ms_and_stops_above_1_s_in_either_direction) {
   EXPECT_EQ(of(-0.99), Late::no);
   EXPECT_EQ(of(-1.01), Late::too_late);
   EXPECT_EQ(of(std::numeric_limits<double>::quiet_NaN()), Late::too_late);
-}
-
-TEST(StickAge, tells_what_lasts_by_the_median_of_5_s) {
-  StickAge age;
-  for (int i = 0; i < 100; ++i) age.add(3.0, 0.1 * i);
-  for (int i = 0; i < 20; ++i) age.add(0.01, 10.0 + 0.1 * i);
-  EXPECT_EQ(age.median(), 3.0) << "a burst of 2 s";
-  for (int i = 0; i < 40; ++i) age.add(0.01, 12.0 + 0.1 * i);
-  EXPECT_EQ(age.median(), 0.01);
 }
 
 }  // namespace

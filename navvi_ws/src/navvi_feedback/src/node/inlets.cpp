@@ -71,15 +71,16 @@ void Inlets::subscribe_to_hands() {
 void Inlets::receive(drive::InputState joy, InputSource& source) {
   const double time = now();
   if (joy.stamp != 0) {
-    stick_age_.add(1e-9 * static_cast<double>(to_ns(ros::Time::now()) - joy.stamp), time);
+    const double age = 1e-9 * static_cast<double>(to_ns(ros::Time::now()) - joy.stamp);
+    stick_age_.add(age, time);
     const StickAge::Late late = stick_age_.late(time);
     joy.live = late != StickAge::Late::too_late;
     joy.late = late == StickAge::Late::slow;
     if (late != StickAge::Late::no && late != logged_)
       ROS_WARN(
-          "The stick's messages come %.2f s after their stamp (median of 5 s), so the robot %s. "
-          "A busy machine or the way delays them, or the computers' clocks differ (chrony, NTP).",
-          stick_age_.median(), joy.live ? "is slow" : "stands");
+          "A message of the stick came %.2f s after its stamp, so the robot %s. A busy machine or "
+          "the way delays them, or the computers' clocks differ (chrony, NTP).",
+          age, joy.live ? "is slow" : "stands");
     logged_ = late;
   }
   source.receive(joy, time);
