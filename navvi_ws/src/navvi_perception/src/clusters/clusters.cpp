@@ -31,7 +31,7 @@ std::vector<std::vector<Cell>> groups_of(const std::map<Cell, Value>& cells, int
 }  // namespace
 
 std::vector<Cluster> clusters_of(const std::vector<Eigen::Vector3d>& points, double gap,
-                                 std::size_t least, double radius, const Eigen::Vector2d& origin) {
+                                 double radius, const Eigen::Vector2d& origin) {
   // Cells of half the gap: two points no farther apart than it are at most two cells apart.
   std::map<Cell, std::vector<std::size_t>> cells;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -50,7 +50,6 @@ std::vector<Cluster> clusters_of(const std::vector<Eigen::Vector3d>& points, dou
         low = low.cwiseMin(points[i].head<2>());
         high = high.cwiseMax(points[i].head<2>());
       }
-    if (cluster.members.size() < least) continue;
     const double seen = 0.5 * (high - low).norm();
     cluster.length = (high - low).maxCoeff();
     cluster.radius = std::max(radius, seen);

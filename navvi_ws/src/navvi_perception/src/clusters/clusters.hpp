@@ -17,12 +17,11 @@ struct Cluster {
   double top = 0.0;                                  ///< m, z of the highest point
 };
 
-/// Points whose neighbours along x and y are at most `gap` m away are one cluster; those of fewer
-/// than `least` points are left out. Only the side towards the sensor is seen: the cylinder lies
-/// behind it, and is at least `radius` m wide.
+/// Points whose neighbours along x and y are at most `gap` m away are one cluster. Only the side
+/// towards the sensor is seen: the cylinder lies behind it, and is at least `radius` m wide.
 /// \param origin  m, of the sensor
 [[nodiscard]] std::vector<Cluster> clusters_of(const std::vector<Eigen::Vector3d>& points,
-                                               double gap, std::size_t least, double radius,
+                                               double gap, double radius,
                                                const Eigen::Vector2d& origin);
 
 /// Numbers for the standing things around: cells that are near each other are one thing, which

@@ -6,24 +6,25 @@ namespace navvi_perception::clusters {
 namespace {
 
 TEST(Clusters, finds_none_in_nothing) {
-  EXPECT_TRUE(clusters_of({}, 0.3, 1, 0.2, {0.0, 0.0}).empty());
+  EXPECT_TRUE(clusters_of({}, 0.3, 0.2, {0.0, 0.0}).empty());
 }
 
-TEST(Clusters, joins_near_points_and_leaves_out_the_few) {
+TEST(Clusters, joins_near_points_and_leaves_a_far_one_alone) {
   const std::vector<Eigen::Vector3d> points{{2.0, 0.0, 0.1}, {2.0, 0.2, 0.3},  {2.0, 0.4, 0.1},
                                             {5.0, 5.0, 0.1}, {-3.0, 0.0, 0.1}, {-3.1, 0.0, 0.1},
                                             {-3.2, 0.0, 0.1}};
-  const auto found = clusters_of(points, 0.3, 3, 0.1, {0.0, 0.0});
-  ASSERT_EQ(found.size(), 2U);
+  const auto found = clusters_of(points, 0.3, 0.1, {0.0, 0.0});
+  ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].members, (std::vector<std::size_t>{6, 5, 4}));
   EXPECT_EQ(found[1].members.size(), 3U);
   EXPECT_DOUBLE_EQ(found[1].length, 0.4);
   EXPECT_DOUBLE_EQ(found[1].top, 0.3);
+  EXPECT_EQ(found[2].members, std::vector<std::size_t>{3});
 }
 
 TEST(Clusters, puts_the_cylinder_behind_the_surface_that_was_seen) {
   const std::vector<Eigen::Vector3d> points{{2.0, 0.0, 0.1}, {2.0, 0.01, 0.1}, {2.0, -0.01, 0.1}};
-  const auto found = clusters_of(points, 0.3, 1, 0.25, {0.0, 0.0});
+  const auto found = clusters_of(points, 0.3, 0.25, {0.0, 0.0});
   ASSERT_EQ(found.size(), 1U);
   EXPECT_DOUBLE_EQ(found[0].radius, 0.25);
   EXPECT_NEAR(found[0].centre.x(), 2.24, 1e-9);

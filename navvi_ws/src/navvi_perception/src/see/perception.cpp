@@ -28,7 +28,7 @@ struct Values {
   double robot_radius = 0.35;     ///< m; what is nearer than this is the robot itself
   double detection_radius = 5.0;  ///< m, gap up to which things are reported as near
   static constexpr double kGap = 0.6;  ///< m, points no farther apart are one thing
-  int points = 3;                      ///< least points of a thing that may move
+  static constexpr std::size_t kFewest = 3;   ///< points of a thing that may move
   static constexpr double kNarrowest = 0.25;  ///< m, least radius of a thing that may move
   static constexpr double kWidest = 3.5;      ///< m, what is longer does not move
   double wall = 2.0;              ///< m; what stands and is longer is called a wall
@@ -145,16 +145,17 @@ void Perception::take(const sight::Sight& sight) {
   stands.hits.clear();
   const std::vector<Eigen::Vector3d> points = parts.strange(sight, stands.hits);
   std::vector<clusters::Cluster> found =
-      clusters::clusters_of(points, config.kGap, static_cast<std::size_t>(config.points),
-                            config.kNarrowest, sight.origin.head<2>());
-  const auto large = std::partition(found.begin(), found.end(), [&](const clusters::Cluster& one) {
-    return one.length <= config.kWidest;
+      clusters::clusters_of(points, config.kGap, config.kNarrowest, sight.origin.head<2>());
+  // What is too long stands. So does what too few rays meet to be followed, such as a pole: the map
+  // takes it for a thing where they go on to meet it, and for noise where others pass.
+  const auto stand = std::stable_partition(found.begin(), found.end(), [&](const auto& one) {
+    return one.length <= config.kWidest && one.members.size() >= config.kFewest;
   });
   const auto add = [&](const clusters::Cluster& cluster) {
     for (const std::size_t i : cluster.members) stands.hits.push_back(points[i]);
   };
-  std::for_each(large, found.end(), add);
-  found.erase(large, found.end());
+  std::for_each(stand, found.end(), add);
+  found.erase(stand, found.end());
   const std::vector<std::size_t> tracks =
       sensor.tracker.update(found, points, seconds(sight.stamp), parts.next_id);
   for (std::size_t i = 0; i < found.size(); ++i)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <octomap/octomap.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -113,6 +114,13 @@ class PerceptionTest : public testing::Test {
   }
   [[nodiscard]] navvi_types::Proximity proximity() {
     return perception_->proximity(hall_.robot, std::llround(time_ * 1e9));
+  }
+  /// Whether something is reported near a place, m, in map.
+  [[nodiscard]] bool is_near(const Eigen::Vector2d& place) {
+    const navvi_types::Proximity near = proximity();
+    return std::any_of(near.things.begin(), near.things.end(), [&](const auto& thing) {
+      return (hall_.robot.to_parent(thing.nearest) - place).norm() < 0.4;
+    });
   }
   void with_prior() { perception_.emplace(PerceptionConfig(), Hall::prior()); }
 
@@ -231,10 +239,28 @@ TEST_F(PerceptionTest, a_thing_put_down_is_an_obstacle_first_and_then_part_of_th
   EXPECT_EQ(first.moving, 0);
   (void)live(9.0, [](double) {});
   EXPECT_TRUE(obstacles().things.empty());
-  bool found = false;
-  for (const auto& thing : proximity().things)
-    found = found || (thing.nearest - Eigen::Vector2d(-2.0, 2.0)).norm() < 0.4;
-  EXPECT_TRUE(found);
+  EXPECT_TRUE(is_near({-2.0, 2.0}));
+}
+
+TEST_F(PerceptionTest, a_pole_that_a_single_ray_meets_is_near_until_it_is_taken_away) {
+  with_prior();
+  (void)live(3.0, [](double) {});
+  hall_.discs = {{{1.2, 0.0}, 0.02}};
+  (void)live(6.0, [](double) {});
+  EXPECT_TRUE(is_near({1.2, 0.0}));
+  hall_.discs.clear();
+  (void)live(12.0, [](double) {});
+  EXPECT_FALSE(is_near({1.2, 0.0}));
+}
+
+TEST_F(PerceptionTest, a_ray_that_ends_short_now_and_then_meets_nothing) {
+  with_prior();
+  (void)live(20.0, [&](double time) {
+    EXPECT_FALSE(is_near({1.2, 0.0})) << time;
+    hall_.discs.clear();
+    // In one of four sights that go into the map, also in the first.
+    if ((std::lround(10.0 * time) - 10) % 16 < 4) hall_.discs = {{{1.2, 0.0}, 0.02}};
+  });
 }
 
 TEST_F(PerceptionTest, forgets_a_mover_that_left_and_leaves_no_trace_of_it) {
