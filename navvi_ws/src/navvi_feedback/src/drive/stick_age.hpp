@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 namespace navvi_feedback::drive {
@@ -17,8 +18,12 @@ class StickAge {
     time_ = time;
   }
   /// By the last message: above 0.3 s old is slow; above 1 s, or as much ahead, too late. no once
-  /// the last came 0.25 s ago.
-  [[nodiscard]] Late late(double time) const;
+  /// the last came 0.25 s ago, as a stick is lost that is silent for so long.
+  [[nodiscard]] Late late(double time) const {
+    if (time - time_ > 0.25) return Late::no;
+    if (!(std::abs(age_) <= 1.0)) return Late::too_late;
+    return age_ > 0.3 ? Late::slow : Late::no;
+  }
 
  private:
   double age_ = 0.0;                                        ///< s, of the last message
