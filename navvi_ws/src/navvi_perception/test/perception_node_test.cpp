@@ -30,8 +30,7 @@ namespace {
 constexpr double kPatience = 60.0;  // s
 constexpr double kRoom = 3.0;       // m, from the robot to each of four walls
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-// Sensors beside the lidar ahead; one that the node has heard once must go on, in later tests too.
-bool has_camera = false, has_rear = false;
+bool has_camera = false;   // which must go on once the node has heard it, in later tests too
 double clock_ahead = 0.0;  // s, of the wall clock
 
 /// A robot at (10, 0) in a square room; its lidar sits 0.2 m ahead of its middle.
@@ -140,17 +139,23 @@ class PerceptionNodeTest : public testing::Test {
     if (spoil_) spoil_(msg);
     scans_.publish(msg);
     if (has_camera) clouds_.publish(cloud(kRoom, 0.1F));
-    if (!has_rear) return;
+    if (!has_rear_) return;
     sensor_msgs::LaserScan rear = rear_scan(scan());
     if (spoil_rear_) spoil_rear_(rear);
     rear_scans_.publish(rear);
   }
 
-  /// A second lidar, which the node has heard by then.
-  void add_rear() {
-    has_rear = true;
-    const ros::WallTime begin = ros::WallTime::now();
-    ASSERT_TRUE(until([&] { return near_ && (ros::WallTime::now() - begin).toSec() > 2.0; }));
+  /// Lets go of the bumper and presses it. \return its contact
+  std::optional<navvi_msgs::Contact> bump() {
+    contact_.reset();
+    std_msgs::Bool pressed;
+    bumper_.publish(pressed);
+    pressed.data = 1;
+    until([&, this] {
+      bumper_.publish(pressed);
+      return contact_.has_value();
+    });
+    return contact_;
   }
 
   /// Sets the clock back, s, and waits until the node has seen something since.
@@ -176,12 +181,19 @@ class PerceptionNodeTest : public testing::Test {
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<double> disc_y_;  ///< m, in laser
   std::function<void(sensor_msgs::LaserScan&)> spoil_, spoil_rear_;
+  bool has_rear_ = false;
   bool lost_ = false;  ///< nothing tells where the robot is
   std::optional<octomap_msgs::Octomap> map_;
   std::optional<navvi_msgs::Obstacles> obstacles_;
   std::optional<navvi_msgs::Proximity> near_;
   std::optional<navvi_msgs::Contact> contact_;
   std::string sensing_;  ///< as in /diagnostics
+};
+
+/// With a second lidar, which the node's parameter names.
+class TwoLidarsTest : public PerceptionNodeTest {
+ protected:
+  TwoLidarsTest() { has_rear_ = true; }
 };
 
 TEST_F(PerceptionNodeTest, T4_a_transform_from_the_future_keeps_out_none_that_follow) {
@@ -203,6 +215,16 @@ TEST_F(PerceptionNodeTest, T1_what_is_near_and_what_moves_is_known_within_1_s_of
   near_.reset();
   EXPECT_TRUE(until([this] { return near_.has_value(); }));
   navvi_test::expect_within(1000, set, "sensed again");
+}
+
+TEST_F(PerceptionNodeTest, T1_contacts_are_counted_on_where_time_jumps_back) {
+  ASSERT_TRUE(until([this] { return near_ && bumper_.getNumSubscribers() > 0; }));
+  const auto before = bump();
+  ASSERT_TRUE(before);
+  set_back(2.0);
+  const auto after = bump();
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->seq, before->seq + 1);
 }
 
 TEST_F(PerceptionNodeTest, H1_uses_scans_as_drivers_send_them) {
@@ -288,41 +310,25 @@ TEST_F(PerceptionNodeTest, tells_nothing_of_scans_that_cannot_be_used_and_goes_o
 
 TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_is_one_contact_ahead) {
   ASSERT_TRUE(until([this] { return near_.has_value() && bumper_.getNumSubscribers() > 0; }));
-  std_msgs::Bool pressed;
-  pressed.data = 1;
-  ASSERT_TRUE(until([&, this] {
-    bumper_.publish(pressed);
-    return contact_.has_value();
-  }));
-  EXPECT_EQ(contact_->thing_class, "other");
-  EXPECT_EQ(contact_->seq, 1U);
-  EXPECT_NEAR(contact_->point.x, 10.35, 1e-6);
-  contact_.reset();
-  std_msgs::Bool released;
-  bumper_.publish(released);
-  ASSERT_TRUE(until([&, this] {
-    bumper_.publish(pressed);
-    return contact_.has_value();
-  }));
-  EXPECT_EQ(contact_->seq, 2U);
+  for (const std::uint32_t count : {1U, 2U}) {
+    const auto contact = bump();
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->thing_class, "other");
+    EXPECT_EQ(contact->seq, count);
+    EXPECT_NEAR(contact->point.x, 10.35, 1e-6);
+  }
 }
 
 TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_where_the_robot_is_lost_is_a_contact) {
   ASSERT_TRUE(until([this] { return near_.has_value() && bumper_.getNumSubscribers() > 0; }));
-  std_msgs::Bool pressed;
-  bumper_.publish(pressed);
   lost_ = true;
   frame("map", "base_link", 14.0, 0.0, 1.0);  // from the future, so that no place is known
   near_.reset();
   sensing_.clear();
   ASSERT_TRUE(until([this] { return sensing_.find("not sensed") != std::string::npos; }));
-  contact_.reset();
-  pressed.data = 1;
-  ASSERT_TRUE(until([&, this] {
-    bumper_.publish(pressed);
-    return contact_.has_value();
-  }));
-  EXPECT_NEAR(contact_->point.x, 10.35, 1e-6) << "where it was last";
+  const auto contact = bump();
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->point.x, 10.35, 1e-6) << "where it was last";
   lost_ = false;
 }
 
@@ -357,13 +363,23 @@ TEST_F(PerceptionNodeTest, sees_the_room_a_mover_and_what_a_camera_adds) {
     }));
 }
 
-TEST_F(PerceptionNodeTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_not_the_robot) {
+TEST_F(TwoLidarsTest, H2_a_lidar_that_never_sent_anything_is_missed) {
+  has_rear_ = false;
+  EXPECT_TRUE(until([this] { return sensing_.find("rear/scan: no") != std::string::npos; }));
+  ASSERT_TRUE(until([this] { return obstacles_.has_value(); })) << "the lidar ahead is seen";
+  sensing_.clear();
+  ASSERT_TRUE(until([this] { return !sensing_.empty(); }));
+  EXPECT_FALSE(near_);
+  has_rear_ = true;
+  EXPECT_TRUE(until([this] { return near_.has_value(); }));
+}
+
+TEST_F(TwoLidarsTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_not_the_robot) {
   // Each sees its own half; the rear one, half a period later, also a mast of the robot.
   bool behind = false;  // something stands there, 1.5 m from the middle
   spoil_ = [&](auto& msg) {
     for (std::size_t ray = 90; ray < 270; ++ray) msg.ranges[ray] = kNone;
   };
-  has_rear = true;
   spoil_rear_ = [&](auto& msg) {
     for (std::size_t ray = 85; ray < 95; ++ray) msg.ranges[ray] = 0.2F;
     for (std::size_t ray = 178; behind && ray <= 186; ++ray) msg.ranges[ray] = 1.5F;
@@ -381,8 +397,8 @@ TEST_F(PerceptionNodeTest, sees_all_around_by_a_lidar_ahead_and_one_behind_but_n
   EXPECT_FALSE(near(-0.35, 0.35)) << "the mast";
 }
 
-TEST_F(PerceptionNodeTest, H2_a_mover_whose_lidar_fell_silent_is_near_until_sensing_is_lost) {
-  add_rear();
+TEST_F(TwoLidarsTest, H2_a_mover_whose_lidar_fell_silent_is_near_until_sensing_is_lost) {
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
   disc_y_ = -2.0;
   const auto holds_mover = [this] {
     return std::any_of(near_->things.begin(), near_->things.end(),
@@ -404,19 +420,19 @@ TEST_F(PerceptionNodeTest, H2_a_mover_whose_lidar_fell_silent_is_near_until_sens
   EXPECT_GE(told, 5) << "one frame that is missing takes no sight";
 }
 
-TEST_F(PerceptionNodeTest, H2_says_why_the_messages_of_one_of_its_sensors_are_dropped) {
-  add_rear();
+TEST_F(TwoLidarsTest, H2_says_why_the_messages_of_one_of_its_sensors_are_dropped) {
+  ASSERT_TRUE(until([this] { return near_.has_value(); }));
   spoil_rear_ = [](auto& msg) { msg.angle_increment = kNone; };
   EXPECT_TRUE(until([this] { return sensing_.find("rear/scan: its angles") != std::string::npos; }))
       << sensing_;
 }
 
-TEST_F(PerceptionNodeTest, H2_loses_sensing_where_one_of_its_sensors_falls_silent) {
-  has_camera = has_rear = true;
-  for (bool* const sensor : {&has_rear, &has_camera}) {
+TEST_F(TwoLidarsTest, H2_loses_sensing_where_one_of_its_sensors_falls_silent) {
+  has_camera = true;
+  for (bool* const sensor : {&has_rear_, &has_camera}) {
     ASSERT_TRUE(until([this] { return near_.has_value(); }));
     *sensor = false;
-    const std::string name = sensor == &has_rear ? "rear/scan" : "points";
+    const std::string name = sensor == &has_rear_ ? "rear/scan" : "points";
     EXPECT_TRUE(until([&] { return sensing_.find(name + ": no message") != std::string::npos; }));
     near_.reset();
     sensing_.clear();
@@ -429,16 +445,18 @@ TEST_F(PerceptionNodeTest, H2_loses_sensing_where_one_of_its_sensors_falls_silen
 }
 
 TEST_F(PerceptionNodeTest, T1_a_sensor_that_is_silent_is_missed_when_time_has_jumped_back_too) {
-  add_rear();
-  has_rear = false;
+  has_camera = true;
+  const ros::WallTime added = ros::WallTime::now();
+  ASSERT_TRUE(until([&] { return near_ && (ros::WallTime::now() - added).toSec() > 2.0; }));
+  has_camera = false;
   sensing_.clear();
-  ASSERT_TRUE(until([this] { return sensing_.find("rear/scan: no") != std::string::npos; }));
+  ASSERT_TRUE(until([this] { return sensing_.find("points: no") != std::string::npos; }));
   near_.reset();
   set_back(2.0);
   const ros::WallTime begin = ros::WallTime::now();
   EXPECT_TRUE(until([&] { return (ros::WallTime::now() - begin).toSec() > 3.0; }));
   EXPECT_FALSE(near_);
-  has_rear = true;
+  has_camera = true;
   EXPECT_TRUE(until([this] { return near_.has_value(); }));
 }
 

@@ -65,7 +65,7 @@ RobotSenses::News RobotSenses::look(const navvi_sim::live::Session& session) {
   }
   if (news.obstacles) news.map = perception_.map(now.stamp());
   if (session.due(kProximityRate)) news.proximity = perception_.proximity(robot, now.stamp());
-  if (!now.contacts.empty()) news.contacts = {perception_.bump(robot, now.stamp())};
+  if (!now.contacts.empty()) news.contacts = {perception_.bump(robot, ++bumps_, now.stamp())};
   return news;
 }
 

@@ -27,7 +27,7 @@ using sensor_msgs::PointCloud2;
 
 constexpr double kRate = 20.0;           // Hz, of proximity
 constexpr double kReport = 1.0;          // s, between two diagnostics
-constexpr int kBegins = 10;              // of these, in which the first sight may come
+constexpr int kBegins = 10;              // of these, in which sensing may begin
 constexpr double kFresh = 0.5;           // s without a sight, after which nothing is known
 // s, and a period of clouds, likewise for each sensor: at 5 Hz it may miss three times, and what it
 // tracks is told (TrackConfig::kTold) until then
@@ -75,8 +75,8 @@ class PerceptionNode {
     seen_ = node.advertise<visualization_msgs::MarkerArray>("navvi/seen_markers", 1);
     proximity_ = node.advertise<navvi_msgs::Proximity>("navvi/proximity", 2);
     diagnostics_ = node.advertise<diagnostic_msgs::DiagnosticArray>("diagnostics", 10);
-    listen<LaserScan>(node, config.scans);
-    listen<PointCloud2>(node, config.clouds);
+    listen<LaserScan>(node, config.scans, NodeConfig().scans);
+    listen<PointCloud2>(node, config.clouds, NodeConfig().clouds);
     moved_ = buffer_._addTransformsChangedListener([this] { serve(); });
     if (config.prior.empty())
       subscribers_.push_back(navvi_types::subscribe<nav_msgs::OccupancyGrid>(
@@ -106,19 +106,22 @@ class PerceptionNode {
     std::string topic;
     SensorQueue queue;
     std::int64_t last = 0;   ///< ns, its last stamp
-    ros::Time taken = {};      ///< when its last sight was; 0: none yet
+    ros::Time taken = {};    ///< when its last sight was; 0: none yet, and none need come
     std::string refused = {};  ///< why its last message was, if it was
     bool sees_body = false;  ///< its own robot, which was logged
   };
 
   template <typename Message>
-  void listen(ros::NodeHandle& node, const std::string& topics) {
+  void listen(ros::NodeHandle& node, const std::string& topics, const std::string& usual) {
     std::vector<std::string> names;
     boost::split(names, topics, boost::is_any_of(", "), boost::token_compress_on);
     for (const std::string& topic : names) {
       if (topic.empty()) continue;
       const std::size_t sensor = sensors_.size();
       sensors_.push_back({topic, SensorQueue(buffer_, config_.map_frame, config_.base_frame)});
+      // Somebody has named it: a lone one on the usual topic need not be there.
+      if (names.size() > 1 || navvi_types::without_slash(topic) != usual)
+        sensors_.back().taken = ros::TIME_MIN;
       subscribers_.push_back(navvi_types::subscribe<Message>(
           node, topic, SensorQueue::kMost, from_msg,
           [this, sensor](const typename Message::ConstPtr& msg) { receive(sensor, msg); }, {},
@@ -235,7 +238,7 @@ class PerceptionNode {
       perception_ = std::make_unique<see::Perception>(config_.core, prior_);
       for (Sensor& one : sensors_) {
         one.last = 0;
-        if (!one.taken.isZero()) one.taken = ros::TIME_MIN;  // each that was heard must go on
+        if (!one.taken.isZero()) one.taken = ros::TIME_MIN;  // each that has to must go on
       }
     } else if (sight.stamp < last) {
       refuse(sensor, "a later one came before it");
@@ -316,7 +319,7 @@ class PerceptionNode {
     seen_.publish(seen);
   }
 
-  /// One that gave sights, but none for long: a side of the robot, or a height, is not seen.
+  /// One that has to give sights, but gave none for long: a side, or a height, is not seen.
   [[nodiscard]] const Sensor* silent(const ros::Time& now) const {
     for (const Sensor& one : sensors_)
       if (!one.taken.isZero() && (now - one.taken).toSec() > kSilent + 1.0 / config_.cloud_rate)
@@ -324,7 +327,7 @@ class PerceptionNode {
     return nullptr;
   }
 
-  /// By a sight that came within kFresh and is not old, and by all sensors that gave one.
+  /// By a sight that came within kFresh and is not old, and by all sensors that have to give one.
   [[nodiscard]] bool sees(const ros::Time& now) const {
     const double since = (now - taken_).toSec();
     const double age = (now - navvi_types::from_ns(sight_)).toSec();
@@ -351,7 +354,8 @@ class PerceptionNode {
     if (const Sensor* const one = silent(now))
       why = one->topic + ": " + (one->refused.empty() ? "no message came" : one->refused);
     if (seen && std::exchange(lost_, false)) ROS_INFO("Obstacles are sensed again.");
-    const bool begins = sight_ == 0 && ++reports_ < kBegins;
+    reports_ = seen ? kBegins : std::min(reports_ + 1, kBegins);
+    const bool begins = reports_ < kBegins;
     if (!seen && !begins && !std::exchange(lost_, true))
       ROS_WARN("Obstacles are not sensed: no scan or cloud of late can be used (%s).", why.c_str());
     diagnostic_msgs::DiagnosticArray array;
@@ -375,8 +379,8 @@ class PerceptionNode {
     (void)robot_now();  // where it was last, if it is not known now
     if (bumper.data && !robot_) return;
     if (std::exchange(touches_, bumper.data) || !bumper.data) return;
-    navvi_msgs::Contact msg =
-        navvi_types::to_msg(perception_->bump(*robot_, navvi_types::to_ns(ros::Time::now())));
+    navvi_msgs::Contact msg = navvi_types::to_msg(
+        perception_->bump(*robot_, ++bumps_, navvi_types::to_ns(ros::Time::now())));
     msg.header.frame_id = config_.map_frame;
     contacts_.publish(msg);
   }
@@ -395,12 +399,13 @@ class PerceptionNode {
   ros::WallTimer timer_, report_timer_;
   std::int64_t sight_ = 0;    ///< ns, of the last sight
   ros::Time taken_;           ///< when it was
-  int reports_ = 0;     ///< before the first sight
+  int reports_ = 0;           ///< before obstacles were first sensed, up to kBegins
   bool lost_ = false;   ///< sensing, which was logged
   navvi_types::Once refusals_;
   std::string last_refusal_;
   bool refused_ = false;  ///< since the last report
   bool touches_ = false;
+  std::uint32_t bumps_ = 0;  ///< goes on where time jumps back
 };
 
 }  // namespace

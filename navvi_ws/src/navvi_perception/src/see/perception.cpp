@@ -88,7 +88,6 @@ struct Perception::Parts {
   bool untold = true;              ///< since the map was told
   std::int64_t told = 0;           ///< ns
   std::vector<std::int8_t> bytes;  ///< that were told
-  std::uint32_t bumps = 0;
 };
 
 Perception::Perception(const PerceptionConfig& config, const sight::Prior& prior)
@@ -254,13 +253,13 @@ navvi_types::Proximity Perception::proximity(const navvi_types::Pose2& robot, st
 
 std::vector<Eigen::Vector3d> Perception::standing() const { return parts_->map.seen(); }
 
-navvi_types::Contact Perception::bump(const navvi_types::Pose2& robot, std::int64_t stamp) {
+navvi_types::Contact Perception::bump(const navvi_types::Pose2& robot, std::uint32_t count,
+                                      std::int64_t stamp) const {
   navvi_types::Contact contact;
   contact.robot = robot;
   contact.point = robot.to_parent({parts_->config.robot_radius, 0.0});
   contact.floor = parts_->config.map.floor;
-  contact.seq = ++parts_->bumps;
-  contact.counts[contact.thing_class] = contact.seq;
+  contact.counts[contact.thing_class] = contact.seq = count;
   contact.stamp = stamp;
   return contact;
 }

@@ -37,6 +37,7 @@ class RobotSenses {
   std::vector<navvi_sim::sensors::Sensor> mounted_;
   navvi_perception::see::Perception perception_;
   navvi_sim::sensors::Reading scan_;
+  std::uint32_t bumps_ = 0;
 };
 
 }  // namespace navvi_people::loop

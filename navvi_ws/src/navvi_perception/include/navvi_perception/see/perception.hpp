@@ -56,7 +56,9 @@ class Perception {
   [[nodiscard]] navvi_types::Proximity proximity(const navvi_types::Pose2& robot,
                                                  std::int64_t stamp);
   /// A bumper was touched: it tells that, not where, so the contact is at the robot's nose.
-  [[nodiscard]] navvi_types::Contact bump(const navvi_types::Pose2& robot, std::int64_t stamp);
+  /// \param count  of contacts, with this one
+  [[nodiscard]] navvi_types::Contact bump(const navvi_types::Pose2& robot, std::uint32_t count,
+                                          std::int64_t stamp) const;
   /// A binary OcTree, if it is to be told again: it has changed, and the last is `period` old.
   [[nodiscard]] std::optional<std::vector<std::int8_t>> map(std::int64_t stamp);
   /// m, middles of the voxels that were seen to stand, without the prior map.
