@@ -5,6 +5,7 @@
 namespace navvi_study::trial {
 
 std::vector<Odometry> OdometryInMap::take(const Odometry& odometry) {
+  if (!waiting_.empty() && odometry.stamp < waiting_.back().stamp) waiting_.clear();
   waiting_.push_back(odometry);
   return release();
 }

@@ -67,6 +67,17 @@ TEST(OdometryInMap, goes_on_with_the_last_correction_when_no_more_come) {
   EXPECT_GE(count, 200u);
 }
 
+TEST(OdometryInMap, T1_what_waits_from_before_a_jump_back_holds_up_nothing_after_it) {
+  OdometryInMap places;
+  (void)places.take(Correction{100, {{0.0, 2.0}}});
+  EXPECT_TRUE(places.take(Odometry{110, {}}).empty()) << "it waits for the next correction";
+  (void)places.take(Correction{20, {{0.0, 3.0}}});
+  const auto reports = places.take(Odometry{10, {}});
+  ASSERT_EQ(reports.size(), 1u);
+  EXPECT_EQ(reports[0].stamp, 10);
+  EXPECT_EQ(reports[0].pose.position.y(), 3.0);
+}
+
 TEST(OdometryInMap, lags_little_behind_where_corrections_are_seconds_apart) {
   constexpr std::int64_t kStep = 50'000'000;  // ns
   OdometryInMap places;

@@ -184,13 +184,15 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
   const bool shelf = contact.thing_class == ThingClass::shelf;
   const std::uint64_t shelves = count_in(contact, true), obstacles = count_in(contact, false);
   std::vector<Event> events;
+  const bool first = inside && tally_.shelf_collisions + tally_.obstacle_collisions == 0;
+  // By a count that began anew since the last trial, or of a world that others drove in before.
+  if (first && contact.seq > 0 &&
+      (contact.seq <= hits_.contact_seq || (hits_.contact_seq == 0 && !start_->hits_known)))
+    hits_ = {contact.seq - 1, shelves - (shelf ? 1 : 0), obstacles - (shelf ? 0 : 1)};
   if (inside && contact.seq <= hits_.contact_seq) {
     if (contact.seq == 1) world_restarted_ = true;
     return {};
   }
-  // The first of all that was seen, over a link to a world that others drove in before.
-  if (inside && hits_.contact_seq == 0 && !start_->hits_known)
-    hits_ = {contact.seq - 1, shelves - (shelf ? 1 : 0), obstacles - (shelf ? 0 : 1)};
   if (inside) {
     // Running counts that jump by more than this contact show the contacts that were lost.
     const std::uint64_t missed_shelf =

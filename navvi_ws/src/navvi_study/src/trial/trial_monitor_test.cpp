@@ -170,6 +170,19 @@ TEST_F(Monitor, tells_since_when_a_thing_was_near_and_of_no_time_before_the_tria
   }
 }
 
+TEST_F(Monitor, T1_goes_on_by_a_count_of_contacts_that_began_anew_before_the_trials_first) {
+  TrialStart start{10 * kSecond, {5.0, 0.0}, {4, 0, 4}};
+  start.hits_known = true;  // as a recount has it
+  monitor_.start(start);
+  EXPECT_EQ(seen(contact(11.0, 1, "other", 0, 1)), Names{"COLLISION"});
+  EXPECT_EQ(seen(contact(12.0, 3, "other", 0, 3)), (Names{"COLLISION", "COLLISION"}));
+  EXPECT_EQ(monitor_.tally().obstacle_collisions, 3u);
+  EXPECT_EQ(monitor_.tally().missed_messages, 1u);
+  EXPECT_FALSE(monitor_.world_restarted());
+  EXPECT_TRUE(monitor_.observe(contact(13.0, 1, "other", 0, 1)).empty());
+  EXPECT_TRUE(monitor_.world_restarted());
+}
+
 TEST_F(Monitor, does_not_flicker_at_the_boundary) {
   EXPECT_EQ(seen(near(11.0, "worker", 4.9, 2.0)), Names{"PROXIMITY_ENTER"});
   for (int i = 0; i < 20; ++i) {
