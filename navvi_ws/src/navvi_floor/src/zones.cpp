@@ -12,7 +12,7 @@ namespace {
 using Kind = navvi_types::ZoneState::Kind;
 
 constexpr std::size_t kMostZones = 200, kMostCorners = 100;
-constexpr double kBrakes = 1.5;  // m/s^2, of the 2.5 that the robot has
+constexpr double kBrakes = 0.75 * navvi_types::kBrakes;  // m/s^2
 constexpr double kReacts = 0.3;  // s, from the pose to the brakes
 constexpr double kLeaves = 0.2;  // m/s, out of a closed zone
 constexpr double kTold = 0.25;   // m/s; a zone that leaves less is told

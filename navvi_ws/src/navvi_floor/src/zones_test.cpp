@@ -13,7 +13,6 @@ namespace {
 using Kind = navvi_types::ZoneState::Kind;
 
 constexpr double kRadius = 0.35;  // m
-constexpr double kBrakes = 2.5;   // m/s^2, of the simulated robot
 constexpr double kBeat = 0.05;    // s, between two looks at the zones
 
 Zones zones(const std::string& text) {
@@ -34,7 +33,7 @@ const char* const kPress = "- {name: press shop, kind: keep_out, corners: [2, -1
 const char* const kLane = "- {name: lane, kind: slow, speed: 0.4, corners: [2, -1, 6, -1, 6, 1, 2, 1]}\n";
 
 /// Where a robot is and how fast, that is pushed ahead at 1.2 m/s and given what zones allow one
-/// beat ago; its brakes and its motors are those of the simulated one.
+/// beat ago; its brakes are no better than they have to be.
 struct Robot {
   Point at;
   double yaw = 0.0;
@@ -46,7 +45,8 @@ struct Robot {
     for (double time = 0.0; time < seconds; time += kBeat) {
       const double wanted = std::min(1.2, allowed);
       allowed = zones.at(at, yaw, kRadius).forward;
-      speed = std::clamp(wanted, speed - kBrakes * kBeat, speed + kBrakes * kBeat);
+      const double change = navvi_types::kBrakes * kBeat;
+      speed = std::clamp(wanted, speed - change, speed + change);
       at = at + speed * kBeat * Point{std::cos(yaw), std::sin(yaw)};
       const double dx = std::max({2.0 - at.x, 0.0, at.x - 6.0});
       const double dy = std::max(std::abs(at.y) - 1.0, 0.0);

@@ -10,7 +10,6 @@ namespace {
 using namespace navvi_types;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kBrakes = 2.0;    // m/s^2, of the 2.5 that the robot has
 constexpr double kReacts = 0.1;    // s, from what is seen to the brakes
 constexpr double kMargin = 0.06;   // m, left when the robot has come to rest
 constexpr double kBrush = 0.03;    // m; a thing that is missed by less is touched

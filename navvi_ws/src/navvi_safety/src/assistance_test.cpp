@@ -9,6 +9,7 @@
 namespace navvi_safety {
 namespace {
 
+using navvi_types::kBrakes;
 using navvi_types::NearThing;
 using navvi_types::Pose2;
 using navvi_types::ThingClass;
@@ -17,7 +18,6 @@ using Does = Assistance::Does;
 
 constexpr double kRobot = 0.35;  // m, its radius
 constexpr double kStep = 0.01;   // s
-constexpr double kBrakes = 2.5;  // m/s^2
 constexpr double kBegin = 100.0;  // s of ROS time
 
 /// What a round robot sees of a point, m, that has a size.
@@ -100,7 +100,7 @@ TEST(Assistance, stops_steadily_before_a_thing_from_any_speed) {
                                   box_at({std::copysign(3.0, speed), y}), 0.0, every);
         EXPECT_GT(stops.least_gap, 0.02) << speed;
         EXPECT_LT(stops.least_gap, 0.25) << speed;
-        EXPECT_LT(stops.roughest, 0.05) << speed << " " << y << " " << every;
+        EXPECT_LT(stops.roughest, 0.12) << speed << " " << y << " " << every;
         EXPECT_EQ(stops.did, Does::slows) << speed;
         EXPECT_NEAR(stops.robot.yaw, 0.0, 1e-9) << "it does not steer";
       }

@@ -6,8 +6,8 @@
 
 namespace navvi_feedback::drive {
 
-constexpr double kBrakes = 2.5;  // m/s^2
-constexpr double kSeen = 1.0;    // m, free, at which a delay alone limits the speed
+using navvi_types::kBrakes;
+constexpr double kSeen = 1.0;  // m, free, at which a delay alone limits the speed
 
 void DriveConfig::describe(navvi_config::Visitor& visit) {
   using navvi_config::Range;

@@ -125,5 +125,19 @@ TEST_F(DriveOf, slows_down_by_the_brakes_also_where_the_stick_is_thrown_over) {
   }
 }
 
+TEST(Fastest, leaves_the_way_that_a_robot_needs_which_brakes_no_harder_than_it_must) {
+  const auto way = [](double speed) { return speed * speed / (2.0 * navvi_types::kBrakes); };
+  EXPECT_DOUBLE_EQ(stopping_distance(-0.9), -way(0.9));
+  for (const double round_trip : {0.1, 0.5, 2.0}) {
+    for (const double gap : {0.3, 0.6, 1.0}) {
+      NearThing ahead;
+      ahead.gap = gap;
+      ahead.nearest = {0.35 + gap, 0.0};
+      const double speed = fastest(round_trip, {0.9, 0.0}, {ahead});
+      EXPECT_NEAR(speed * (round_trip + 0.6) + way(speed), gap - 0.1, 1e-9) << round_trip;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace navvi_feedback::drive

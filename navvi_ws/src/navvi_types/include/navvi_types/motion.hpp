@@ -49,6 +49,9 @@ struct Odometry {
 /// the simulated hull, what is near and what a robot's own sensors see share this default.
 inline constexpr double kHeadroom = 0.8;
 
+/// m/s^2, by which the wheels of a robot slow down at least (doc/robot.md).
+inline constexpr double kBrakes = 2.0;
+
 /// m, beyond where a pose arrives; by odometry the goal may be so much farther.
 inline constexpr double kArrivalMargin = 1.0;
 

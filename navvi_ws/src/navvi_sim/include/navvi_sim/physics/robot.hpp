@@ -36,7 +36,7 @@ struct RobotConfig {
   double mass = 50.0;                 ///< kg, mass of the robot
   double max_speed = 0.9;             ///< m/s, forward and back
   double acceleration = 1.0;          ///< m/s^2, towards a larger speed
-  double deceleration = 2.0;          ///< m/s^2, towards a smaller speed
+  double deceleration = navvi_types::kBrakes;  ///< m/s^2, towards a smaller speed
   double max_turn_rate = 1.5;         ///< rad/s, largest rate of turn
   double angular_acceleration = 4.0;  ///< rad/s^2, of turning, both ways
   double brake = 30.0;                ///< m/s^2, deceleration when commands fail to come
