@@ -171,6 +171,7 @@ def test_the_robots_frames_and_radius_reach_who_reads_them():
 
 @pytest.mark.parametrize("words, contacts", [
     ("robot.launch", "unknown"), ("robot.launch sensors:=false", "unknown"), ("robot.launch bumper:=/bumper", "counted"),
+    ("robot.launch bumper:=/bumper sensors:=false", "unknown"),
     ("person.launch clock:=/navvi/clock", "unknown"), ("person.launch clock:=/navvi/clock contacts:=counted", "counted"),
     ("person.launch clock:=/clock", "counted"), ("live.launch", "counted")])
 def test_contacts_are_counted_only_where_something_tells_of_them(words, contacts):

@@ -9,6 +9,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/LaserScan.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -442,6 +443,15 @@ TEST_F(TwoLidarsTest, H2_loses_sensing_where_one_of_its_sensors_falls_silent) {
     near_.reset();
   }
   EXPECT_TRUE(until([this] { return near_.has_value(); }));
+}
+
+TEST_F(TwoLidarsTest, warns_of_a_bumper_that_nothing_publishes) {
+  bool warned = false;
+  const ros::Subscriber log = node_.subscribe<rosgraph_msgs::Log>(
+      "/rosout", 100, [&](const rosgraph_msgs::Log::ConstPtr& msg) {
+        warned = warned || msg->msg.find("Nothing publishes the bumper, no/such") == 0;
+      });
+  EXPECT_TRUE(until([&] { return warned; }));
 }
 
 TEST_F(PerceptionNodeTest, T1_a_sensor_that_is_silent_is_missed_when_time_has_jumped_back_too) {

@@ -73,7 +73,11 @@ int main(int argc, char** argv) {
     ros::Publisher clock = node.advertise<rosgraph_msgs::Clock>("navvi/clock", 1);
 
     bool pressed = false;
+    ros::Subscriber stop;
     const auto step = [&] {
+      if (stop && stop.getNumPublishers() == 0)
+        ROS_WARN_DELAYED_THROTTLE(10.0, "Nothing publishes the emergency stop, %s.",
+                                  config.emergency_stop.c_str());
       if (pressed) gate.stop(navvi_safety::CommandGate::Reason::emergency_stop);
       wheels.topic.publish(navvi_types::to_msg(gate.update(instant())));
       publish_state();
@@ -84,7 +88,6 @@ int main(int argc, char** argv) {
     };
     // By wall clock, so that a stopped simulation clock cannot keep the wheels turning.
     ros::WallTimer timer = node.createWallTimer(ros::WallDuration(0.02), [&](auto&) { step(); });
-    ros::Subscriber stop;
     if (!config.emergency_stop.empty())
       stop = node.subscribe<std_msgs::Bool>(config.emergency_stop, 10,
                                             [&](const std_msgs::Bool::ConstPtr& msg) {

@@ -164,6 +164,13 @@ TEST_F(Relay, C8_stands_while_the_emergency_stop_is_pressed_and_until_the_stick_
       drive_until(0.6, [&] { return drive_.reason == navvi_msgs::DriveState::EMERGENCY_STOP; }));
 }
 
+TEST_F(Relay, C8_warns_where_nothing_publishes_the_emergency_stop) {
+  const auto warned = [this] {
+    return logged_.find("Nothing publishes the emergency stop, emergency_stop.") != logged_.npos;
+  };
+  EXPECT_TRUE(wait_until(warned) || wait_until(warned));
+}
+
 TEST_F(Relay, stops_the_wheels_when_only_bad_commands_come) {
   start();
   EXPECT_TRUE(drive_until(std::numeric_limits<double>::quiet_NaN(), [&] {

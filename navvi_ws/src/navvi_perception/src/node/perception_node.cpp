@@ -86,7 +86,7 @@ class PerceptionNode {
       know(config.core.prior_of(config.prior));
     if (!config.bumper.empty()) {
       contacts_ = node.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
-      subscribers_.push_back(node.subscribe(config.bumper, 10, &PerceptionNode::on_bumper, this));
+      bumper_ = node.subscribe(config.bumper, 10, &PerceptionNode::on_bumper, this);
     }
     timer_ = node.createWallTimer(ros::WallDuration(1.0 / kRate),
                                   [this](const ros::WallTimerEvent&) { tell_what_is_near(); });
@@ -358,6 +358,9 @@ class PerceptionNode {
     const bool begins = reports_ < kBegins;
     if (!seen && !begins && !std::exchange(lost_, true))
       ROS_WARN("Obstacles are not sensed: no scan or cloud of late can be used (%s).", why.c_str());
+    if (bumper_ && bumper_.getNumPublishers() == 0)
+      ROS_WARN_DELAYED_THROTTLE(10.0, "Nothing publishes the bumper, %s: no contact is counted.",
+                                config_.bumper.c_str());
     diagnostic_msgs::DiagnosticArray array;
     array.header.stamp = now;
     DiagnosticStatus& status = array.status.emplace_back();
@@ -396,6 +399,7 @@ class PerceptionNode {
   ros::Publisher map_, obstacles_, proximity_, contacts_, seen_, diagnostics_;
   std::vector<Sensor> sensors_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber bumper_;
   ros::WallTimer timer_, report_timer_;
   std::int64_t sight_ = 0;    ///< ns, of the last sight
   ros::Time taken_;           ///< when it was
