@@ -6,6 +6,8 @@
 #include <navvi_msgs/TrialEvent.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <rosgraph_msgs/Clock.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -263,6 +265,17 @@ TEST_F(TrialNodeProcess, R2_a_reached_goal_leaves_journal_events_summary_and_bag
   EXPECT_EQ(recount("journal"), 0);
   fs::resize_file(folder / "trial.bag", fs::file_size(folder / "trial.bag") / 2);
   EXPECT_EQ(recount("bag"), 2) << "a damaged bag is told, not guessed from";
+}
+
+TEST_F(TrialNodeProcess, T1_a_bag_has_the_time_that_the_node_goes_by) {
+  ros::param::set("/robot_time", true);
+  ros::param::set("/use_sim_time", false);
+  World world;
+  Process node(command({"/use_sim_time:=/robot_time"}));
+  EXPECT_TRUE(run(world, [&] { return !node.running(); }));
+  ros::param::set("/use_sim_time", true);
+  rosbag::Bag bag((only_folder() / "trial.bag").string());
+  EXPECT_LT(rosbag::View(bag).getBeginTime(), ros::Time(1000.0)) << "of the scripted world";
 }
 
 TEST_F(TrialNodeProcess, the_state_is_repeated_with_the_time_at_which_the_trial_began) {

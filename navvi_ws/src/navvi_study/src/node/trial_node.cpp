@@ -178,7 +178,11 @@ class TrialNode {
       // As an argument that renames: the bag has what comes seldom under the name that RViz knows.
       topics.push_back(node_.resolveName("navvi/scene_moving") +
                        ":=" + node_.resolveName("navvi/scene_recorded"));
-      if (!far_) return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
+      if (!far_) {
+        for (const std::string name : {"/clock", "/use_sim_time"})  // the robot's time is the bag's
+          topics.push_back(name + ":=" + node_.resolveName(name));
+        return std::make_unique<trial::BagRecorder>(bag, recorder_name_, topics);
+      }
       const auto own = std::filesystem::read_symlink("/proc/self/exe").parent_path();
       return std::make_unique<trial::BagRecorder>(
           bag, recorder_name_, topics,
