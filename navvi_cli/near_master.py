@@ -2,7 +2,8 @@
 
 Parameters are answered here and changed there, too. What a node registers is passed on while the node goes on; the publishers of a topic come to
 it as the master sends all later changes. Everything else is asked there. A node asks a publisher for its connection once, and never again if the
-question is lost: what has no connection is registered anew, by which those that lack one ask again.
+question is lost: what has no connection is registered anew, by which those that lack one ask again. So is everything where the robot's side, and its
+master with it, was started anew.
 """
 import http.client
 import queue
@@ -76,13 +77,19 @@ class NearMaster:
         self.waiting[hash(words[:2]) % AT_ONCE].put((method, words))  # in order for each node and topic
 
     def keep_connected(self):
+        there = self.who_is_there()
         while True:
             time.sleep(CONNECTED)
+            before, there = there, self.who_is_there()
             nodes = {words[3]: self.connections(words[3]) for words in list(self.registered.values())}
             with self.lock:
                 for (method, _, topic), words in self.registered.items():
-                    if (connected := nodes.get(words[3])) is not None and (ENDS[method], topic) not in connected:
+                    if (connected := nodes.get(words[3])) is not None and (there != before or (ENDS[method], topic) not in connected):
                         self.put(method, words)
+
+    def who_is_there(self):
+        """Process and run of the master there; in a container each may have the process of the last one."""
+        return self.insist("getPid", "/navvi")[2], self.insist("getParam", "/navvi", "/run_id")[2]
 
     @staticmethod
     def connections(address):
@@ -95,16 +102,16 @@ class NearMaster:
     def pass_on(self, waiting):
         while True:
             method, words = waiting.get()
-            answer = self.insist(method, words)
+            answer = self.insist(method, *words)
             if method == "registerSubscriber":
                 self.tell(words, answer[2])
                 # A change that the master sent just after this answer may have been overtaken by it.
                 time.sleep(AGAIN)
-                if (later := self.insist(method, words)[2]) != answer[2]:
+                if (later := self.insist(method, *words)[2]) != answer[2]:
                     self.tell(words, later)
             waiting.task_done()
 
-    def insist(self, method, words):
+    def insist(self, method, *words):
         while True:
             try:
                 return self.ask(method, *words)

@@ -1,4 +1,6 @@
 """The robot's master, near to the person's nodes: a real one, and what a node tells it and hears of it."""
+import contextlib
+import os
 import threading
 import time
 from xmlrpc.client import Fault, ServerProxy
@@ -6,7 +8,8 @@ from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 
-from sessions import eventually
+from conftest import free_port
+from sessions import Programs, eventually
 from navvi_cli import near_master, network
 from navvi_cli.near_master import NearMaster
 from navvi_cli.say import Failure
@@ -78,6 +81,31 @@ def test_a_subscriber_without_a_connection_hears_of_its_publisher_again_until_it
     own.unregisterSubscriber("/listener", "/lost", uri)
     time.sleep(2.0)
     assert ["/lost", ["/listener"]] not in far.getSystemState("/test")[2][1], "what was taken back stays so"
+
+
+def test_a_master_that_was_started_anew_knows_what_is_registered_here(node, monkeypatch):
+    monkeypatch.setattr(near_master, "CONNECTED", 0.5)
+    monkeypatch.setattr(near_master, "AGAIN", 0.1)
+    uri, _, connections = node
+    connections.append([1, "http://127.0.0.1:1/", "i", "TCPROS", "/chat", 1])  # with nothing to show that it is lost
+    port = free_port()
+    at = f"http://127.0.0.1:{port}"
+
+    def knows(*subscribers):
+        with contextlib.suppress(*near_master.LOST):
+            return ServerProxy(at).getSystemState("/test")[2][1] == [*subscribers]
+
+    with Programs(dict(os.environ, ROS_MASTER_URI=at, ROS_IP="127.0.0.1")) as programs:
+        first = programs.start("rosmaster", "--core", "-p", port)
+        assert eventually(knows, 20)
+        own = ServerProxy(NearMaster(at).uri)
+        own.registerSubscriber("/listener", "/chat", "std_msgs/String", uri)
+        assert eventually(lambda: knows(["/chat", ["/listener"]]), 20)
+        time.sleep(1.0)
+        first.terminate()
+        first.wait(20)
+        programs.start("rosmaster", "--core", "-p", port)
+        assert eventually(lambda: knows(["/chat", ["/listener"]]), 30)
 
 
 def test_a_master_and_a_node_that_answer_nonsense_end_nothing(monkeypatch, node):
