@@ -456,6 +456,19 @@ def test_a_session_of_a_robot_elsewhere_keeps_its_exit_code_whatever_stops_its_g
     assert "\"far\" is unknown" in refusal(lambda: arguments.words_for(arguments.LaunchFile("robot_side.launch"), ["far:=false"]))
 
 
+@pytest.mark.parametrize("words, port, drivers, unheard", [([], 11311, True, False), ([], 11312, True, True), (["world:=busy"], 11312, False, False)])
+def test_a_robots_side_says_how_its_drivers_join_and_which_it_does_not_hear(words, port, drivers, unheard, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    for name, stand_in in ("prepare", lambda words, *_: words.update(parameters="", version="")), ("check_world", lambda _: None), \
+            ("Network", lambda _: types.SimpleNamespace(port=port, second_terminal=lambda: "export LINE")), \
+            ("Launch", lambda *_: types.SimpleNamespace(run=lambda: True, interrupted=False)):
+        monkeypatch.setattr(robot, name, stand_in)
+    assert robot.Start.run(types.SimpleNamespace(words=words)) == 0
+    told = capsys.readouterr()
+    assert ("the drivers of the robot" in told.out) == drivers and "export LINE" in told.out
+    assert ("port 11311 are not heard" in told.err) == unheard
+
+
 # --- the end of a session, and what its record says
 
 ROW = {"trial": "trial-1", "world": "busy", "seed": "3", "result": "reached", "reason": "goal_reached", "elapsed_s": "28.550", "path_length_m": "31.2",

@@ -26,10 +26,10 @@ from pathlib import Path
 
 from navvi_cli import robot, robot_check
 from navvi_cli.arguments import LaunchFile, add_words, words_for
-from navvi_cli.network import Network
+from navvi_cli.network import PORTS, Network
 from navvi_cli.parser import add_actions
 from navvi_cli.places import program
-from navvi_cli.say import say, tell
+from navvi_cli.say import aside, say, tell
 from navvi_cli.session import Launch, accepted, check_parameters, nodes_of, prepare
 from navvi_cli.workspace import build, is_current
 from navvi_cli.worlds import check_world
@@ -64,7 +64,11 @@ class Start:
         log = Path.home() / ".navvi" / f"robot-{time.strftime('%Y%m%dT%H%M%SZ', time.gmtime())}.log"
         log.parent.mkdir(0o700, parents=True, exist_ok=True)
         say(f"the robot's side starts; Ctrl-C stops it. To drive, on the person's machine: ./navvi run robot:={address}:{network.port}")
-        tell(f"The output of the programs: {log}\nFor ROS tools, in a second terminal: {network.second_terminal()}")
+        tell(f"The output of the programs: {log}\n"
+             f"For {'' if simulated else 'the drivers of the robot and '}ROS tools, in a second terminal: {network.second_terminal()}")
+        if not simulated and network.port != PORTS[0]:
+            aside(f"drivers whose master listens on port {PORTS[0]} are not heard: start them in that second terminal, or this side at their master "
+                  "with \"roslaunch navvi robot_side.launch far:=true\".")
         launch = Launch(launch_file, words, log, network)
         return int(not (launch.run() or launch.interrupted))
 
