@@ -1,4 +1,5 @@
 """A person here, a robot there, and between them a network that delays, cuts and loses packets (far.py). The robot is the simulator."""
+import contextlib
 import json
 import os
 import re
@@ -51,12 +52,15 @@ class Session:
     def __init__(self, folder):
         self.folder, self.wire, self.processes = folder, far.Wire(), []
         self.env = dict(os.environ, HOME=str(folder), ROS_LOG_DIR=str(folder))
-        self.robot = self.start(self.wire.robot, "./navvi", "robot", "start", f"address:={far.ROBOT}", f"world:={WORLD}", "seed:=3",
-                                output=folder / "robot.txt")
-        # Another session of this machine may hold the first port.
-        self.at = eventually(lambda: re.search(r"run robot:=(\S+)", (folder / "robot.txt").read_text()), 60)[1]
-        self.env["ROS_MASTER_URI"] = f"http://{self.at}"
+        self.begin_robot()
         assert eventually(lambda: self.asks("rosnode", "ping", "-c1", "/nav_node"), 300)
+
+    def begin_robot(self):
+        self.start(self.wire.robot, "./navvi", "robot", "start", f"address:={far.ROBOT}", f"world:={WORLD}", "seed:=3",
+                   output=self.folder / "robot.txt")
+        # Another session of this machine may hold the first port.
+        self.at = eventually(lambda: re.search(r"run robot:=(\S+)", (self.folder / "robot.txt").read_text()), 60)[1]
+        self.env["ROS_MASTER_URI"] = f"http://{self.at}"
 
     def start(self, side, *words, output=None, **more):
         (tmp := self.folder / side.address).mkdir(exist_ok=True)
@@ -87,6 +91,20 @@ class Session:
         self.wire.close()
 
 
+class RobotOfItsOwn(Session):
+    """A master, drivers and wheels of a robot, here the simulator's, which knows nothing of the person; the robot's side joins them."""
+
+    def begin_robot(self):
+        self.env["ROS_MASTER_URI"] = f"http://{far.ROBOT}:11311"
+        self.start(self.wire.robot, "rosmaster", "--core", "-p", "11311")
+        assert eventually(lambda: self.asks("rosparam", "set", "use_sim_time", "true"), 60)
+        self.start(self.wire.robot, "rosrun", "navvi_sim", "sim_node", f"_world:={WORLD}", "_seed:=3", "odom:=/robot/odom",
+                   *(f"navvi/{name}:=/robot/{name}" for name in ("command", "drive_state", "link")))
+        self.start(self.wire.robot, "/usr/bin/python3", str(ROOT / "test/wheels.py"))
+        self.start(self.wire.robot, "roslaunch", str(ROOT / "launch/robot_side.launch"), "far:=true", "sensors:=false", "odom:=/robot/odom",
+                   "wheels:=/robot/cmd_vel", output=self.folder / "robot.txt")
+
+
 @pytest.fixture
 def session(tmp_path):
     session = Session(tmp_path)
@@ -107,6 +125,19 @@ def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(sessi
     assert result["bag"] == "ok" and (trial / "trial.bag").stat().st_size > 1e5, sorted(trial.iterdir())
     assert not (trial / "trial.bag.txt").exists() and not list((session.folder / ".navvi/bags").iterdir()), "it was fetched from there"
     assert subprocess.run(["rosbag", "check", str(trial / "trial.bag")], capture_output=True).returncode == 0
+
+
+def test_a_simulated_person_reaches_the_goal_of_a_real_robots_side_on_another_machine(tmp_path):
+    with contextlib.closing(RobotOfItsOwn(tmp_path)) as session:
+        session.wire.delay = 0.02
+        person = session.start(session.wire.person, "roslaunch", str(ROOT / "launch/person.launch"), "clock:=/navvi/clock", "odom:=/robot/odom",
+                               "operator:=simulated", "speech:=auto", "rviz:=false", "limit:=120", "patience:=300", f"out:={tmp_path}",
+                               "trial_parameters:={record: robot}", output=tmp_path / "person.txt")
+        code = person.wait(400)
+        assert code == 0 and [*tmp_path.glob("trial-*/summary.csv")], (tmp_path / "person.txt").read_text()[-3000:]
+    result = summary(tmp_path)
+    assert (result["result"], result["bag"], result["shelf_collision_count"]) == ("reached", "ok", "unknown"), result
+    assert 0.04 <= float(result["round_trip"]) < 0.34
 
 
 def test_a_session_can_be_watched_on_both_machines(session):
