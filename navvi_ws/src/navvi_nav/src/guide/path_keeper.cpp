@@ -97,7 +97,7 @@ bool PathKeeper::holds(double time, const Candidate& followed, const Candidate& 
   if (!holds_paths()) return false;
   const bool in_time = conflict.time_to_collision > config_.kHoldChoice;
   if (chosen_ && time - *chosen_ < config_.kHoldChoice)
-    return in_time || !safer(followed, fresh);
+    return in_time || (fresh.path.size() >= 2 && !safer(followed, fresh));
   return in_time && fresh.path.size() >= 2 &&
          fresh.conflict.time_to_collision <= config_.kHoldChoice;
 }

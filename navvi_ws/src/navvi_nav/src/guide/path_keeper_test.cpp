@@ -142,6 +142,24 @@ TEST_F(Holding, keeps_what_was_just_chosen_unless_something_would_be_run_into) {
   }
 }
 
+TEST_F(Holding, leaves_what_was_just_chosen_only_for_what_is_safer_or_where_all_is_closed) {
+  Conflict soon = conflict(Conflict::State::stationary);
+  soon.time_to_collision = 2.0;
+  Conflict later = soon;
+  PathKeeper keeper(config_);
+  keeper.chose(10.0);
+  for (const double hits_in : {2.5, 2.9, 3.1, kNever}) {
+    later.time_to_collision = hits_in;
+    EXPECT_EQ(keeper.decide(choice(10.5, {followed_, soon}, {slight_, later})), hits_in < 3.0);
+  }
+  for (const auto found : {plan::PlanStatus::no_route, plan::PlanStatus::closed,
+                           plan::PlanStatus::retreat}) {
+    PathKeeper::Choice out = choice(10.5, {followed_, soon}, {slight_, {}});
+    out.found = found;
+    EXPECT_FALSE(keeper.decide(out));
+  }
+}
+
 TEST_F(Holding, leads_nobody_before_something_that_moves) {
   PathKeeper keeper(config_);
   Conflict before;
