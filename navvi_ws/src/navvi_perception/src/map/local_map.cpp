@@ -151,20 +151,15 @@ struct LocalMap::Trees {
     return {static_cast<octomap::key_type>(key >> 32), static_cast<octomap::key_type>(key >> 16),
             static_cast<octomap::key_type>(key)};
   }
-  /// m
-  [[nodiscard]] Eigen::Vector3d middle_of(const octomap::OcTreeKey& key) const {
-    const octomap::point3d middle = seen.keyToCoord(key);
-    return {middle.x(), middle.y(), middle.z()};
-  }
-  /// \param by  log-odds \param first  those of a voxel that no ray has met or passed
-  void update(const octomap::OcTreeKey& key, float by, float first = 0.0F) {
+  /// \param by  log-odds
+  void update(const octomap::OcTreeKey& key, float by) {
     octomap::OcTreeNode* node = path.find(seen, key);
     const float before = node ? node->getLogOdds() : 0.0F;
     if (node && by < 0.0F && before <= seen.getClampingThresMinLog()) return;
     if (node)
       seen.updateNodeLogOdds(node, by);  // without a second way down the tree
     else
-      node = seen.updateNode(key, first + by, true);
+      node = seen.updateNode(key, by, true);
     if (seen.isNodeOccupied(node))
       occupied.insert(packed(key));
     else if (before >= seen.getOccupancyThresLog())
@@ -273,19 +268,13 @@ void LocalMap::insert(const sight::Sight& sight) {
         hit.insert(key);
       if (share < 1.0 || once.take(key)) ends.push_back(there);
     }
-  // One sight does not make a thing of what the prior map calls clear: rays at edges end anywhere.
-  const auto first = [&](const octomap::OcTreeKey& voxel) {
-    const bool clear = (sight.in_plane || !flat_) &&
-                       prior_at(column_of(trees_->middle_of(voxel).head<2>())) == kClear;
-    return clear ? kSurelyClear : 0.0F;
-  };
   octomap::KeyRay ray;
   for (const octomap::point3d& end : ends) {
     if (!seen.computeRayKeys(to_octomap(sight.origin), end, ray)) continue;
     for (const octomap::OcTreeKey& passed : ray)
-      if (once.take(passed)) trees_->update(passed, seen.getProbMissLog(), first(passed));
+      if (once.take(passed)) trees_->update(passed, seen.getProbMissLog());
   }
-  for (const octomap::OcTreeKey& met : hit) trees_->update(met, seen.getProbHitLog(), first(met));
+  for (const octomap::OcTreeKey& met : hit) trees_->update(met, seen.getProbHitLog());
   if (static_cast<double>(sight.stamp - faded_) * 1e-9 >= kFadeEach || sight.stamp < faded_)
     fade(sight);
 }
@@ -365,7 +354,8 @@ std::vector<Column> LocalMap::standing(const Eigen::Vector2d& place, double radi
     for (int x = low.first; x <= high.first; ++x)
       if (prior_at({x, y}) == kOccupied) found.emplace_back(x, y);
   for (const std::uint64_t key : trees_->occupied) {
-    const Column column = column_of(trees_->middle_of(Trees::unpacked(key)).head<2>());
+    const octomap::point3d middle = trees_->seen.keyToCoord(Trees::unpacked(key));
+    const Column column = column_of({middle.x(), middle.y()});
     if (column.first >= low.first && column.first <= high.first && column.second >= low.second &&
         column.second <= high.second)
       found.push_back(column);
@@ -377,8 +367,10 @@ std::vector<Column> LocalMap::standing(const Eigen::Vector2d& place, double radi
 
 std::vector<Eigen::Vector3d> LocalMap::seen() const {
   std::vector<Eigen::Vector3d> middles;
-  for (const std::uint64_t key : trees_->occupied)
-    middles.push_back(trees_->middle_of(Trees::unpacked(key)));
+  for (const std::uint64_t key : trees_->occupied) {
+    const octomap::point3d middle = trees_->seen.keyToCoord(Trees::unpacked(key));
+    middles.emplace_back(middle.x(), middle.y(), middle.z());
+  }
   return middles;
 }
 

@@ -115,23 +115,6 @@ TEST(LocalMap, another_prior_map_replaces_the_first_and_leaves_what_was_seen) {
   EXPECT_EQ(map.at({2.02, 0.52, 0.12}), Known::standing);
 }
 
-TEST(LocalMap, one_sight_puts_nothing_where_the_prior_map_is_clear_in_the_sensors_plane) {
-  const Eigen::Vector3d place(2.02, 0.52, 0.12);
-  for (const bool in_plane : {true, false}) {
-    for (const bool passed : {true, false}) {
-      LocalMap map(MapConfig(), strip(0.0));
-      sight::Sight sight = ray({3.03, 0.78, 0.12}, 1.0);
-      sight.in_plane = in_plane;
-      if (passed) map.insert(sight);
-      sight.hits = {place};
-      map.insert(sight);
-      EXPECT_EQ(map.at(place) == Known::standing, !in_plane) << passed;
-      map.insert(sight);
-      EXPECT_EQ(map.at(place), Known::standing) << passed;
-    }
-  }
-}
-
 TEST(LocalMap, a_ray_without_a_return_contradicts_a_wall_of_the_prior_map) {
   sight::Sight sight = ray({0.0, 0.0, 0.0}, 1.0, 1.0);
   sight.origin.y() = 1.0;

@@ -29,6 +29,7 @@ struct Values {
   double detection_radius = 5.0;  ///< m, gap up to which things are reported as near
   static constexpr double kGap = 0.6;  ///< m, points no farther apart are one thing
   static constexpr std::size_t kFewest = 3;   ///< points of a thing that may move
+  static constexpr double kPlace = 0.15;      ///< m, what is met nearer was met at that place
   static constexpr double kNarrowest = 0.25;  ///< m, least radius of a thing that may move
   static constexpr double kWidest = 3.5;      ///< m, what is longer does not move
   double wall = 2.0;              ///< m; what stands and is longer is called a wall
@@ -64,7 +65,8 @@ sight::Prior PerceptionConfig::prior_of(const std::string& file) const {
 struct Perception::Parts {
   struct Sensor {
     tracks::Tracker tracker;
-    std::int64_t mapped = 0;  ///< ns
+    std::int64_t mapped = 0;           ///< ns
+    std::vector<Eigen::Vector3d> few;  ///< that few rays met, then
   };
 
   Parts(const Values& values, const sight::Prior& prior) : config(values), map(values.map, prior) {}
@@ -137,7 +139,7 @@ void Perception::take(const sight::Sight& sight) {
   Parts& parts = *parts_;
   const Values& config = parts.config;
   while (parts.sensors.size() <= sight.sensor)
-    parts.sensors.push_back({tracks::Tracker(config.tracks), 0});
+    parts.sensors.push_back({tracks::Tracker(config.tracks), 0, {}});
   Parts::Sensor& sensor = parts.sensors[sight.sensor];
 
   sight::Sight stands = sight;
@@ -145,15 +147,18 @@ void Perception::take(const sight::Sight& sight) {
   const std::vector<Eigen::Vector3d> points = parts.strange(sight, stands.hits);
   std::vector<clusters::Cluster> found =
       clusters::clusters_of(points, config.kGap, config.kNarrowest, sight.origin.head<2>());
-  // What is too long stands. So does what too few rays meet to be followed, such as a pole: the map
-  // takes it for a thing where they go on to meet it, and for noise where others pass.
-  const auto stand = std::stable_partition(found.begin(), found.end(), [&](const auto& one) {
-    return one.length <= config.kWidest && one.members.size() >= config.kFewest;
-  });
   const auto add = [&](const clusters::Cluster& cluster) {
     for (const std::size_t i : cluster.members) stands.hits.push_back(points[i]);
   };
-  std::for_each(stand, found.end(), add);
+  std::vector<Eigen::Vector3d> few;
+  const auto stand = std::stable_partition(found.begin(), found.end(), [&](const auto& one) {
+    return one.length <= config.kWidest && one.members.size() >= config.kFewest;
+  });
+  for (auto one = stand; one != found.end(); ++one)
+    if (one->length > config.kWidest)
+      add(*one);
+    else
+      for (const std::size_t i : one->members) few.push_back(points[i]);
   found.erase(stand, found.end());
   const std::vector<std::size_t> tracks =
       sensor.tracker.update(found, points, seconds(sight.stamp), parts.next_id);
@@ -162,6 +167,13 @@ void Perception::take(const sight::Sight& sight) {
 
   if (seconds(sight.stamp - sensor.mapped) * config.kMapRate < 1.0 - 1e-6) return;
   sensor.mapped = sight.stamp;
+  // What few rays meet twice at one place stands, such as a pole; rays at edges end anywhere.
+  for (const Eigen::Vector3d& point : few)
+    if (std::any_of(sensor.few.begin(), sensor.few.end(), [&](const Eigen::Vector3d& before) {
+          return (point - before).norm() < config.kPlace;
+        }))
+      stands.hits.push_back(point);
+  sensor.few = std::move(few);
   parts.map.insert(stands);
   parts.map_new = parts.untold = true;
 }
