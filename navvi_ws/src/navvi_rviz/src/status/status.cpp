@@ -143,14 +143,17 @@ std::string Status::instruction(double time) const {
   return last_->text;
 }
 
-/// The order, but for the way, and what the guide cannot know: that the wheels stand without it.
+/// The order, but for the way, and that the wheels stand, unless the guide knows why.
 void Status::choose_banner(double time, Shown& shown) const {
   const auto show = [&](const std::string& text, Shown::Tone tone) {
     if (!shown.banner.empty() || text.empty()) return;
     shown.banner = text;
     shown.tone = tone;
   };
-  if (gate_ == navvi_types::DriveState::State::stopped)
+  const navvi_types::CueTraits& ordered = traits(order_ ? order_->kind : CueKind::lesson);
+  const bool why =
+      ordered.ask == navvi_types::Ask::halt && ordered.priority == navvi_types::Priority::important;
+  if (gate_ == navvi_types::DriveState::State::stopped && !why)
     show(words_.said(CueKind::robot_stopped, keyboard_), Shown::Tone::alarm);
   if (order_ && family_of(order_->kind) != navvi_types::CueFamily::way)
     show(order_->text, tone_of(order_->kind));

@@ -114,6 +114,17 @@ TEST(Status, wheels_that_stand_without_the_guide_are_shown_before_its_last_order
   EXPECT_EQ(status.shown(1.0, 0.0).banner, "robot stopped, release the stick");
 }
 
+TEST(Status, C8_why_the_wheels_stand_is_shown_where_the_guide_knows_it) {
+  Status status = speaking();
+  status.take(gate(DriveState::State::stopped));
+  for (const CueKind kind : {CueKind::emergency_stop, CueKind::stick_lost, CueKind::robot_lost,
+                             CueKind::connection_lost}) {
+    status.take_order(said(kind, "as the guide has it"));
+    EXPECT_EQ(status.shown(1.0, 0.0).banner, "as the guide has it") << to_string(kind);
+    EXPECT_EQ(status.shown(1.0, 0.0).tone, Shown::Tone::alarm) << to_string(kind);
+  }
+}
+
 TEST(Status, speaks_the_language_of_the_session_and_names_its_keys) {
   Status status = speaking("es");
   status.take_input("keyboard");
