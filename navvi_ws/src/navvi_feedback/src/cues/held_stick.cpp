@@ -27,6 +27,7 @@ std::optional<CueKind> remedy_of(const Observation& now) {
 }  // namespace
 
 Utterances HeldStick::update(const Observation& now, bool driven, double time) {
+  constexpr double kOpens = 1.0;  // s, and a round trip, until a gate has opened to a stick at rest
   const auto names_stop = [](const std::vector<Content>& states) {
     return std::count(states.begin(), states.end(), CueKind::emergency_stop) > 0;
   };
@@ -34,8 +35,11 @@ Utterances HeldStick::update(const Observation& now, bool driven, double time) {
   since_ = since_when(remedy.has_value(), since_, time);
   const bool held = since_ && time - *since_ >= kHold;
   // What is pressed must be released first. The gate names it until the stick has been at rest: to
-  // a held one that may be all that is left of it.
-  const bool pressed = names_stop(now.devices.states) || (!remedy && names_stop(now.notices));
+  // a held one that may be all that is left of it, unless the gate stayed shut to one at rest.
+  const bool told = names_stop(now.devices.states), named = names_stop(now.notices);
+  const bool shut = rested_ && time - *rested_ > kOpens + now.connection.round_trip;
+  rested_ = since_when(driven && named && !told && (shut || !remedy), rested_, time);
+  const bool pressed = told || (named && (shut || !remedy));
   needed_ = pressed && !now.robotless ? std::optional(CueKind::emergency_stop)
             : held                    ? remedy
                                       : std::nullopt;

@@ -21,7 +21,8 @@ class HeldStick {
   [[nodiscard]] std::optional<CueKind> needed() const { return needed_; }
 
  private:
-  std::optional<double> since_;  ///< s, held in vain
+  std::optional<double> since_;   ///< s, held in vain
+  std::optional<double> rested_;  ///< s, while the gate alone names the emergency stop
   std::optional<CueKind> needed_;
   std::optional<double> said_;  ///< s
 };

@@ -65,6 +65,27 @@ TEST_F(HeldStickTest, C8_tells_an_emergency_stop_from_a_gate_that_stays_shut_aft
   EXPECT_FALSE(held_.needed());
 }
 
+TEST_F(HeldStickTest, C8_knows_a_stop_that_the_gate_alone_names_by_a_stick_that_rested_in_vain) {
+  now_.gate = DriveState::State::stopped;
+  now_.notices = {CueKind::emergency_stop};
+  now_.connection.round_trip = 1.0;
+  const auto push_after = [&](double rest) {
+    now_.commanded.linear = 0.0;
+    pass(rest);
+    now_.commanded.linear = 0.5;
+    EXPECT_EQ(pass(5.0), 2);
+    return held_.needed();
+  };
+  EXPECT_EQ(push_after(1.5), CueKind::release_stick) << "the gate may be about to open";
+  EXPECT_EQ(push_after(2.5), CueKind::emergency_stop);
+  now_.notices.clear();
+  pass(1.0);
+  EXPECT_EQ(held_.needed(), CueKind::release_stick) << "the gate is shut by something else";
+  now_.notices = {CueKind::emergency_stop};
+  pass(1.0);
+  EXPECT_EQ(held_.needed(), CueKind::release_stick) << "another one";
+}
+
 TEST_F(HeldStickTest, passes_over_the_moment_that_a_gate_takes_to_open) {
   now_.gate = DriveState::State::waiting;
   now_.commanded.linear = 0.5;
