@@ -94,7 +94,7 @@ bool Halt::over(const Observation& now, bool follows, bool comes, double time) {
   led_since_ = since_when(awaits && follows, led_since_, time);
   const bool long_led = led_since_ && time - std::max(said_, *led_since_) > kLongest;
   const bool blind = now.links.proximity == Link::lost;
-  const bool may_go = led_since_ && !blind && ((clear(now) && !comes) || long_led);
+  const bool may_go = led_since_ && ((!blind && clear(now) && !comes) || long_led);
   clear_since_ = since_when(may_go, clear_since_, time);
   return may_go && time - last_ >= (halted() ? kObeyed : again_) && time - *clear_since_ >= kClear;
 }

@@ -177,16 +177,21 @@ TEST_F(HaltTest, says_the_same_once_more_in_other_words) {
   EXPECT_EQ(pass(1.0), kWait) << "that is long ago";
 }
 
-TEST_F(HaltTest, says_go_on_to_nobody_whose_robot_senses_nothing_any_more) {
+TEST_F(HaltTest, says_go_on_to_nobody_whose_robot_senses_nothing_but_not_for_ever) {
   wait_and_stand();
   const auto goes_on = [&](double seconds) {
     const Texts said = pass(seconds);
     return std::find(said.begin(), said.end(), kGoOn[0]) != said.end();
   };
   now_.links.proximity = Link::lost;
-  EXPECT_FALSE(goes_on(12.0));
+  EXPECT_FALSE(goes_on(4.0));
   now_.links.proximity = Link::alive;
   EXPECT_TRUE(goes_on(3.0));
+
+  wait_and_stand();
+  now_.links.proximity = Link::lost;
+  EXPECT_FALSE(goes_on(7.5));
+  EXPECT_TRUE(goes_on(2.0)) << "as where what is ahead stays";
 }
 
 }  // namespace
