@@ -223,10 +223,12 @@ TEST(Help, tells_the_buttons_as_they_are_assigned) {
   auto& index = config->buttons.index;
   std::swap(index.at(1), index.at(2));  // goal and around
   index.at(4) = -1;                     // turn
+  index.at(8) = 7;                      // next
   const Texts moved = told(config, false);
   ASSERT_EQ(moved.size(), 5U);
   EXPECT_EQ(moved[1], "the left button tells the goal");
   EXPECT_EQ(moved[2], "the right button tells what is near");
+  EXPECT_EQ(moved[4], "the left stick button opens the menu with goals and settings");
 }
 
 TEST_F(GuideTest, help_ends_where_another_button_is_pressed) {

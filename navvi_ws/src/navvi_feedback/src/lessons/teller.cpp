@@ -54,8 +54,9 @@ std::vector<std::string> Teller::sentences(const std::string& key, const Filling
   std::vector<std::string> result;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(". ", begin), text.size());
-    // Of what no button does nothing is told.
-    if (text.compare(begin, 2, "- ") != 0) result.push_back(text.substr(begin, end - begin));
+    // Of what no button does help tells nothing.
+    if (key != "help" || text.compare(begin, 2, "- ") != 0)
+      result.push_back(text.substr(begin, end - begin));
     begin = end + 2;
   }
   return result;
@@ -68,7 +69,7 @@ void Teller::then(const std::string& key, const Fillings& fillings) {
 void Teller::tell(const std::string& key, const Fillings& fillings) {
   waiting_.clear();
   then(key, fillings);
-  at_once_ = true;
+  at_once_ = !waiting_.empty();
 }
 
 void Teller::then_phrase(CueKind kind, const cues::Fillings& fillings) {

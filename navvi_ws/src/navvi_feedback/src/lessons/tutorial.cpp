@@ -44,7 +44,7 @@ std::vector<std::string> Tutorial::texts() {
 }
 
 Tutorial::Tutorial(const cues::Phrases& phrases, const drive::ButtonsConfig& buttons)
-    : teller_(phrases, buttons, texts()) {}
+    : teller_(phrases, buttons, texts()), buttons_(buttons) {}
 
 bool Tutorial::drives() const {
   if (step().task == Task::goal && phase_ != Phase::leaving)
@@ -74,11 +74,6 @@ void Tutorial::attempt() {
   exercise_ = begin_exercise(step(), results_.back().tries);
 }
 
-void Tutorial::leave(const std::string& text, const Teller::Fillings& fillings) {
-  phase_ = Phase::leaving;
-  teller_.then(tutorial_key(text), fillings);
-}
-
 void Tutorial::finish(bool passed) {
   results_.back().seconds = time_ - step_since_.value_or(time_);
   results_.back().passed = passed;
@@ -86,8 +81,9 @@ void Tutorial::finish(bool passed) {
   next();
 }
 
-/// What leads in it reaches the person.
+/// What leads in it reaches the person, and there is the button.
 bool Tutorial::given(const Step& step) const {
+  if (step.task == Task::press) return buttons_.index[static_cast<std::size_t>(step.button)] >= 0;
   return step.task == Task::by_sound ? audible_ : step.task != Task::by_hand || motors_;
 }
 
@@ -107,8 +103,9 @@ void Tutorial::next() {
   });
   const auto all = std::count_if(steps().begin(), steps().end(),
                                  [&](const Step& step) { return given(step); });
-  leave(well == all ? "well" : "done",
-        {{"count", std::to_string(well)}, {"all", std::to_string(all)}});
+  phase_ = Phase::leaving;
+  teller_.then(tutorial_key(well == all ? "well" : "done"),
+               {{"count", std::to_string(well)}, {"all", std::to_string(all)}});
 }
 
 /// The step that took the most tries, and of those the longest.

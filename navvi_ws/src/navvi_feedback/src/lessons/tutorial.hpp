@@ -46,7 +46,6 @@ class Tutorial : public Lesson {
   void begin(std::size_t step);
   void attempt();
   void act(const Observation& seen, double dt, Taught& taught);
-  void leave(const std::string& key, const Teller::Fillings& fillings = {});
   void finish(bool passed);
   void next();
   [[nodiscard]] bool given(const Step& step) const;
@@ -54,6 +53,7 @@ class Tutorial : public Lesson {
   [[nodiscard]] const Step& step() const { return steps()[at_]; }
 
   Teller teller_;
+  drive::ButtonsConfig buttons_;
   Phase phase_ = Phase::telling;
   std::size_t at_ = 0;
   bool over_ = false;

@@ -194,6 +194,21 @@ TEST_F(TutorialTest, passes_over_ways_of_leading_that_do_not_reach_the_person) {
   }
 }
 
+TEST_F(TutorialTest, asks_for_no_button_that_there_is_not_and_tells_of_those_without_a_name) {
+  drive::ButtonsConfig buttons;
+  buttons.index.at(static_cast<std::size_t>(Button::around)) = -1;
+  buttons.index.at(static_cast<std::size_t>(Button::where)) = 99;
+  buttons.index.at(static_cast<std::size_t>(Button::end)) = 99;
+  tutorial_ =
+      Tutorial(cues::Phrases(std::string(NAVVI_FEEDBACK_CONFIG_DIR) + "/phrases/en.yaml"), buttons);
+  run();
+  EXPECT_TRUE(tutorial_.over());
+  EXPECT_EQ(count("press_around"), 0);
+  EXPECT_EQ(count("press_where"), 1);
+  EXPECT_EQ(count("buttons"), 3);
+  EXPECT_EQ(count("well"), 1) << "all that there are";
+}
+
 TEST_F(TutorialTest, tells_what_was_wrong_and_practises_the_weakest_step_at_the_end) {
   const Hand well = hands_["turn_left"];
   hands_["turn_left"] = [this, well](double t) {
