@@ -15,10 +15,10 @@ std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt,
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
   const bool held = teacher.teaching() ? teacher.holds() : senses.holds(time);
   // Where the motors led and no longer do, nobody drives on: by what is heard instead only anew.
-  had_motors = had_motors || devices.felt;
-  const bool numb = config.lead == "hand" && had_motors && !devices.felt && !teacher.teaching();
-  const bool just_lost = std::exchange(feels, devices.felt) && numb;
-  if (held || !enabled || just_lost || (numb && !devices.sounds)) drive.disarm();
+  const bool numb = config.lead == "hand" && feels && !devices.felt && !teacher.teaching();
+  const bool led = devices.sounds && (config.sounds.enabled || (devices.words && devices.voice));
+  if (held || !enabled || (numb && (*feels || !led))) drive.disarm();
+  if (feels || devices.felt) feels = devices.felt;
   const drive::Stick stick = hands.stick(config.drive.stick == "right");
   const std::optional<Velocity> velocity =
       drive.update(live ? std::optional(stick) : std::nullopt, dt);

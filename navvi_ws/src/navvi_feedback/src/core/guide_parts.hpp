@@ -122,8 +122,7 @@ struct Guide::Parts {
   Velocity commanded;
   double idle = 0.0;                ///< s, since the person last drove, or had reason to
   std::optional<cues::Cue> lesson;  ///< its last sentence, while one speaks
-  bool had_motors = false;
-  bool feels = false;  ///< motors, at the last beat
+  std::optional<bool> feels;        ///< motors, at the last beat; nullopt: there were none yet
   bool held_unarmed = false;
   bool pushed_disabled = false;
   bool runs = false;               ///< a trial

@@ -47,6 +47,13 @@ class Leading : public testing::Test {
     }
     return output;
   }
+  /// m/s, by a stick that was released and pushed again.
+  double drive_anew() {
+    devices_.hands.axes = {0.0, 0.0};
+    pass(0.5);
+    devices_.hands.axes = {0.0, 1.0};
+    return pass(1.0).command.value().linear;
+  }
   /// Pulses within so many seconds. \param side  0 left, 1 right
   int pulses(double seconds, int side) {
     rumble_.clear();
@@ -181,12 +188,6 @@ TEST_F(Leading, by_the_hand_stops_the_wheels_when_the_motors_are_lost) {
   begin("hand");
   devices_.hands.axes = {0.0, 1.0};
   EXPECT_GT(pass(1.0).command.value().linear, 0.5);
-  const auto drive_anew = [&] {
-    devices_.hands.axes = {0.0, 0.0};
-    pass(0.5);
-    devices_.hands.axes = {0.0, 1.0};
-    return pass(1.0).command.value().linear;
-  };
   devices_.felt = false;
   EXPECT_EQ(pass(0.02).command.value().linear, 0.0);
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0) << "until the stick was neutral";
@@ -199,6 +200,20 @@ TEST_F(Leading, by_the_hand_stops_the_wheels_when_the_motors_are_lost) {
   devices_.felt = true;
   EXPECT_EQ(pass(1.0).command.value().linear, 0.0) << "until the stick was neutral";
   EXPECT_GT(drive_anew(), 0.5);
+}
+
+TEST_F(Leading, by_the_hand_that_is_lost_goes_on_by_words_but_not_by_a_device_without_any) {
+  using Has = std::pair<bool, bool>;
+  for (const auto& [words, voice] : {Has(true, true), Has(false, true), Has(true, false)}) {
+    devices_.felt = true;
+    begin("hand, sounds: {enabled: false}");
+    EXPECT_GT(drive_anew(), 0.5);
+    devices_.words = words;
+    devices_.voice = voice;
+    devices_.felt = false;
+    pass(0.02);
+    EXPECT_EQ(drive_anew() > 0.5, words && voice);
+  }
 }
 
 TEST_F(Leading, takes_to_the_hand_only_where_no_sound_reaches_anybody) {
