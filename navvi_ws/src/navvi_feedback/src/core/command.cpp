@@ -35,16 +35,12 @@ std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt,
 /// What the person asked for stays the measure of being stuck.
 void Guide::Parts::limit(Velocity& command, const Observation& now) const {
   constexpr double kLateShare = 0.25;  // of a command by a stick that comes late
-  double share = 1.0;
-  const double speed = std::abs(command.linear);
-  if (const double most = drive::fastest(now.connection.foresight, command, now.nearby);
-      speed > most)
-    share = most / speed;
+  double fastest = drive::fastest(now.connection.foresight, command, now.nearby);
   if (now.devices.hands.late) {
-    share = std::min(share, kLateShare);
+    fastest = std::min(fastest, kLateShare * std::abs(command.linear));
     command.angular *= kLateShare;
   }
-  command.linear *= share;
+  command.linear = std::clamp(command.linear, -fastest, fastest);
   const double turning = std::abs(command.angular);
   const double most = sounds.turn().most_rate().value_or(turning);
   if (turning > most) command.angular *= most / turning;
