@@ -166,7 +166,7 @@ Observation Guide::Parts::observe(const Devices& devices, double dt, double time
   now.stick_held_unarmed = held_unarmed && !now.robotless;
   now.stick_disabled = pushed_disabled && !now.robotless;
   now.commanded = commanded;
-  now.voice_busy = !queue.empty() || teacher.helps();
+  now.voice_busy = !queue.empty() || (teacher.helps() && teacher.speaks());
   now.begun = std::exchange(begun, {});
   const haptics::HapticsConfig& haptics = config.haptics;
   now.motors = devices.felt && haptics.enabled;

@@ -229,6 +229,25 @@ TEST_F(Leading, takes_to_the_hand_only_where_no_sound_reaches_anybody) {
   EXPECT_EQ(pulses(2.0, 0), 0);
 }
 
+TEST_F(Leading, by_words_goes_on_between_the_sentences_of_help) {
+  begin("words");
+  steer_ = 0.0;
+  pass(3.0);
+  devices_.asked = {drive::Button::help};
+  std::vector<CueKind> told;
+  for (double until = 0.0; time_ < 30.0;) {
+    devices_.speaking = time_ < until;
+    const Beat output = pass(0.02);
+    if (output.voice.start) until = time_ + 1.5;
+    for (const cues::Cue& cue : output.cues) told.push_back(cue.kind);
+    devices_.asked.clear();
+    steer_ = 1.2;
+  }
+  EXPECT_EQ(std::count(told.begin(), told.end(), CueKind::lesson), 6);
+  const auto way = std::find(told.begin(), told.end(), CueKind::direction);
+  EXPECT_GT(std::count(way, told.end(), CueKind::lesson), 3) << "after the new direction";
+}
+
 TEST(LeadingConfig, by_the_hand_is_refused_without_motors) {
   GuideConfig config;
   navvi_config::read(config, YAML::Load("{lead: hand, haptics: {enabled: false}}"), "test");
