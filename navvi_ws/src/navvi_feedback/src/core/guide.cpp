@@ -57,7 +57,6 @@ Guide::Parts::Parts(const GuideConfig::Values& config, cues::Phrases worded)
     throw navvi_config::ConfigError("lead is " + config.lead + ", but " +
                                     (config.lead == "hand" ? "haptics" : "sounds") +
                                     "/enabled is false; it leads only where these are on");
-  if (!teacher.has_glossary()) menu.withdraw_glossary();
   for (const char* way : {"flow", "hand"})
     if (!config.may_lead(way)) menu.withdraw(way);
 }

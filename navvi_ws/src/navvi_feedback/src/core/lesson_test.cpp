@@ -128,11 +128,11 @@ TEST(Lesson, lets_it_be_heard_that_what_it_found_cannot_be_saved) {
   EXPECT_TRUE(heard);
 }
 
-/// The English phrases with a text of a lesson less; nullptr: without any lesson.
+/// The English phrases with a text of a lesson less.
 cues::Phrases without(const char* text) {
   const navvi_test::TempFolder folder;
   YAML::Node file = YAML::LoadFile(kEnglish);
-  text ? file["lessons"].remove(text) : file.remove("lessons");
+  file["lessons"].remove(text);
   return cues::Phrases(folder.write("phrases.yaml", YAML::Dump(file)));
 }
 
@@ -145,25 +145,10 @@ TEST(Lesson, whose_texts_are_missing_is_refused_at_the_start_and_not_once_it_is_
       return error.what();
     }
   };
-  EXPECT_EQ(refusal("none", nullptr), "");
   EXPECT_EQ(refusal("none", "tutorial_stop"), "");
-  EXPECT_NE(refusal("none", "glossary_end").find("lessons/glossary_end"), std::string::npos);
+  for (const char* text : {"help", "glossary_end"})
+    EXPECT_NE(refusal("none", text).find(std::string("lessons/") + text), std::string::npos);
   EXPECT_NE(refusal("tutorial", "tutorial_stop").find("lessons/tutorial_stop"), std::string::npos);
-  EXPECT_NE(refusal("tutorial", nullptr), "");
-}
-
-TEST(Lesson, is_not_in_the_menu_where_the_phrases_have_none) {
-  for (const char* text : {"tutorial_stop", static_cast<const char*>(nullptr)}) {
-    Guide guide(GuideConfig{}, without(text));
-    Devices input;
-    int told = 0;
-    for (double time = 10.0; time < 11.0; time += 0.02) {
-      input.asked = {drive::Button::next};
-      for (const cues::Cue& cue : beat(guide, input, time).cues)
-        told += cue == Content(CueKind::menu, About::menu_glossary) ? 1 : 0;
-    }
-    EXPECT_EQ(told > 0, text != nullptr);
-  }
 }
 
 }  // namespace

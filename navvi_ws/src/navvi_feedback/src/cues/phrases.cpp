@@ -254,7 +254,7 @@ Phrases::Phrases(const std::filesystem::path& file, const WordingConfig& wording
   for (const std::string& key : kPicture)
     if (picture_.count(key) == 0) picture.fail(key, "is missing");
 
-  if (root["lessons"]) lessons_ = Section(name, root, "lessons").read(std::nullopt);
+  lessons_ = Section(name, root, "lessons").read(std::nullopt);
 
   Section phrases(name, root, "phrases");
   const auto read_phrases = [&](Section& section, const std::string& which) {

@@ -74,12 +74,12 @@ using Utterances = std::vector<Utterance>;
 /// The placeholders stand at the top of config/phrases/en.yaml.
 class Phrases {
  public:
-  /// \param file  with the sections voice, phrases, words, picture; in clock, brief and full stand
-  /// phrases that are said instead where that wording is wanted, brief and full before clock, and
-  /// in again what is said instead of the same words once more \throws navvi_config::ConfigError
-  /// with file, line and key if the file is missing or no YAML, if a Content has no
-  /// phrase or a word is missing, if a key or placeholder is unknown, or if a text, filled in any
-  /// way, and after the phrase go_on if it is of the way, would not be speakable().
+  /// \param file  with the sections voice, phrases, words, picture, lessons; in clock, brief and
+  /// full stand phrases that are said instead where that wording is wanted, brief and full before
+  /// clock, and in again what is said instead of the same words once more \throws
+  /// navvi_config::ConfigError with file, line and key if the file is missing or no YAML, if a
+  /// Content has no phrase or a word is missing, if a key or placeholder is unknown, or if a text,
+  /// filled in any way, and after the phrase go_on if it is of the way, would not be speakable().
   explicit Phrases(const std::filesystem::path& file, const WordingConfig& wording = {});
 
   /// \throws std::logic_error for a lesson, a filling that the phrase needs and that is
@@ -101,7 +101,7 @@ class Phrases {
   [[nodiscard]] const std::string& voice() const { return voice_; }
   /// What the picture shows, by key.
   [[nodiscard]] const std::map<std::string, std::string>& picture() const { return picture_; }
-  /// What is told in lessons, by key; whoever tells it checks it. Empty where the file has none.
+  /// What is told in lessons, by key; whoever tells it checks it.
   [[nodiscard]] const std::map<std::string, std::string>& lessons() const { return lessons_; }
 
  private:

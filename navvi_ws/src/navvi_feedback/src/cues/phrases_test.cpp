@@ -317,6 +317,9 @@ TEST(Phrases, refuse_a_file_with_a_missing_or_unknown_key_or_placeholder_and_nam
     for (const std::string& part : row.named)
       EXPECT_TRUE(names(sentence, part)) << row.to << ": " << sentence;
   }
+  const std::string whole = english();
+  const std::string sentence = refusal(whole.substr(0, whole.find("\nlessons:") + 1));
+  EXPECT_TRUE(names(sentence, "\"lessons\" is missing")) << sentence;
 }
 
 TEST(Phrases, refuse_text_that_could_harm_the_voice) {

@@ -19,10 +19,10 @@ Teacher::Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsC
       haptics_(haptics),
       sounds_(sounds),
       robot_delay_(robot_delay),
-      help_(phrases_, buttons_, std::vector<std::string>(has_glossary() ? 1 : 0, "help")) {
+      help_(phrases_, buttons_, {"help"}) {
   if (first_ == "questionnaire") questions_ = read_questions(questions);
   // A text that is missing is told now, and not once a lesson is chosen.
-  if (has_glossary()) begin("glossary", "");
+  begin("glossary", "");
   begin(first_, "");
   lesson_.reset();
 }
@@ -57,7 +57,7 @@ void Teacher::update(const Observation& seen, double time) {
 void Teacher::press(drive::Button button, bool keyboard) {
   help_.forget();
   help_.hands(keyboard);
-  if (button == drive::Button::help && has_glossary()) help_.tell("help");
+  if (button == drive::Button::help) help_.tell("help");
 }
 
 void Teacher::join(std::vector<cues::Cue>& cues, bool quiet) {

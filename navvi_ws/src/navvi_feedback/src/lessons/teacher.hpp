@@ -19,7 +19,7 @@ class Teacher {
   /// \param robot_delay  s, as Calibration takes it
   /// \param questions  path, as read_questions() takes it; of a questionnaire
   /// \throws navvi_config::ConfigError if they cannot be asked, or if the phrases lack a text of
-  /// the first lesson or, where they have any lesson, of the glossary
+  /// help, the glossary or the first lesson
   Teacher(std::string first, cues::Phrases phrases, const drive::ButtonsConfig& buttons,
           const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
           double robot_delay, const std::string& questions);
@@ -28,7 +28,6 @@ class Teacher {
   void use(const haptics::HapticsConfig& haptics, const sounds::SoundsConfig& sounds,
            const cues::WordingConfig& wording);
 
-  [[nodiscard]] bool has_glossary() const { return !phrases_.lessons().empty(); }
   /// \param pad  whose motors are felt
   void begin(const std::string& lesson, const std::string& pad);
   /// Call it at 50 Hz. The first lesson begins as soon as there are hands; one that was chosen ends

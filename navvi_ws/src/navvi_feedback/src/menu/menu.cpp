@@ -62,8 +62,7 @@ std::vector<Menu::Entry> Menu::entries(const Level& level) const {
         entries.push_back({{entry(About::menu_begin)}, {}, {}, TrialRequest::Kind::begin});
       if (!destinations().empty()) entries.push_back({{entry(About::menu_goals)}, List::goals});
       if (!values_.empty()) entries.push_back({{entry(About::menu_settings)}, List::settings});
-      if (glossary_ && trial_ != TrialState::State::preparing &&
-          trial_ != TrialState::State::running)
+      if (trial_ != TrialState::State::preparing && trial_ != TrialState::State::running)
         entries.push_back({{entry(About::menu_glossary)}, {}, {}, {}, nullptr, true});
       if (trial_ == TrialState::State::running)
         entries.push_back({{entry(About::menu_end)}, List::end});

@@ -61,9 +61,6 @@ class Menu {
     }
   }
 
-  /// There are no lessons.
-  void withdraw_glossary() { glossary_ = false; }
-
   /// Other buttons than its own are ignored.
   [[nodiscard]] Step press(drive::Button button);
   /// \param dt  s since the last call \return true if the menu has closed by itself
@@ -117,7 +114,6 @@ class Menu {
   [[nodiscard]] Step tell();
 
   bool locked_ = false;
-  bool glossary_ = true;  ///< is offered
   std::optional<Scenario> scenario_;
   std::vector<NamedPlace> places_;
   std::vector<Eigen::Vector2d> goals_;  ///< m, in map: the last two that were set
