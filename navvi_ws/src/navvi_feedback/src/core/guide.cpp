@@ -263,11 +263,16 @@ bool Guide::end_session() {
   return !parts_->news.empty();
 }
 
-bool Guide::has_last_words() const { return parts_->last_words && !parts_->queue.empty(); }
+bool Guide::has_last_words() const {
+  return parts_->last_words && (!parts_->queue.empty() || parts_->touch.playing());
+}
 
 Output Guide::hear_out(const Devices& devices, double time) {
   Output out;
-  parts_->move_motors(std::nullopt, devices, time, out);
+  const double dt = time - std::exchange(parts_->last_update, time).value_or(time);
+  const bool last = has_last_words();
+  if (last) out.rumble = parts_->touch.update({}, std::nullopt, {}, false, dt);
+  parts_->move_motors(last ? parts_->touch.playing() : std::nullopt, devices, time, out);
   parts_->say(parts_->queue.update({}, devices.speaking, time), devices, out);
   return out;
 }

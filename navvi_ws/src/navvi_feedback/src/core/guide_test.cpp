@@ -187,6 +187,24 @@ TEST_F(GuideTest, an_emergency_stop_that_the_robot_alone_knows_of_is_told) {
   EXPECT_EQ(count(CueKind::emergency_stop), 1);
 }
 
+TEST_F(GuideTest, the_end_of_a_trial_by_the_end_of_the_session_is_felt_to_its_end) {
+  guide_.take(TrialState{TrialState::State::running}, time_);
+  pass(1.0);
+  ASSERT_TRUE(guide_.end_session());
+  pass(0.02);
+  int pulses = 0;
+  bool on = false;
+  const auto hear_out = [&] {
+    const double left = guide_.hear_out(input_, time_ += 0.02).rumble.left;
+    pulses += left > 0.0 && !on ? 1 : 0;
+    on = left > 0.0;
+  };
+  while (guide_.has_last_words() && time_ < 20.0) hear_out();
+  EXPECT_EQ(pulses, 2);
+  hear_out();
+  EXPECT_FALSE(on);
+}
+
 TEST_F(GuideTest, the_record_of_the_motors_ends_where_they_are_lost) {
   double left = 0.0;
   const auto recorded = [&](double seconds) {

@@ -118,9 +118,9 @@ class Guide {
   [[nodiscard]] std::optional<Output> update(const Devices& devices, double time);
   /// The session ends: announces it if a trial runs. \return whether a beat is due for it
   [[nodiscard]] bool end_session();
-  /// The voice is to be heard out before the session ends.
+  /// The voice, or a pattern of the motors, is to come to its end before the session does.
   [[nodiscard]] bool has_last_words() const;
-  /// A beat for the voice alone: the wheels and the motors get nothing.
+  /// A beat for these alone: the wheels get nothing, nor the motors anything else.
   [[nodiscard]] Output hear_out(const Devices& devices, double time);
   /// Ends all words.
   [[nodiscard]] Output finish(const Devices& devices);
