@@ -37,9 +37,8 @@ bool sided(Pattern pattern) {
 
 std::vector<Glossary::Entry> Glossary::all() {
   std::vector<Entry> entries;
-  entries.push_back({"glossary_near_left", {}, {}, cues::Side::left});
-  entries.push_back({"glossary_near_right", {}, {}, cues::Side::right});
-  entries.push_back({"glossary_near_ahead", {}, {}, cues::Side::ahead});
+  for (const cues::Side side : {cues::Side::left, cues::Side::right, cues::Side::ahead})
+    entries.push_back({std::string("glossary_near_") + navvi_types::to_string(side), {}, {}, side});
   entries.push_back({"glossary_felt_hand"});
   entries.back().by_hand = true;
   for (std::size_t i = 0; i < names(Pattern{}).size(); ++i)
@@ -119,10 +118,8 @@ Taught Glossary::update(const Observation& seen, double time) {
     if (button == Button::next || button == Button::choose || button == Button::start) go(1, seen);
     if (button == Button::previous) go(-1, seen);
     if (button == Button::repeat) begin();
-    if (button == Button::end || button == Button::back) {
-      leaving_ = true;
-      teller_.tell("glossary_end");
-    }
+    if (button == Button::end || button == Button::back)
+      go(static_cast<int>(entries_.size()), seen);
     if (button == Button::help) teller_.tell("glossary_buttons");
   }
   taught.cues = teller_.update(!seen.voice_busy);
