@@ -69,7 +69,7 @@ LINES = [
     "The robot is stopped: no command came from the stick; let go of the stick. 5 s.",
     "12 m to go, the next corner in 5 m at 2 o'clock. 20 s.",
     "Wait, the way is blocked, forklift, 12 m to go. 21 s.",
-    "The way is free, 9 m to where the map ends. 25 s.",
+    "The way is free, wait until you are led on, 9 m to where the map ends. 25 s.",
     "The trial has ended: aborted, stopped by signal. 30 s.",
     "Said: the trial is over. 32 s.",
 ]
@@ -195,6 +195,13 @@ def test_no_word_that_keeps_the_person_safe_is_left_out_and_of_the_wheels_the_ne
         pacer.offer(watch.Line("Said", 1, f"wait {number}"))
     pacer.offer(watch.Line("wheels", 1, "can be driven"))
     assert [line.text for line in pacer.waiting] == [*(f"wait {number}" for number in range(6)), "can be driven"]
+
+
+def test_of_an_emergency_stop_what_is_told_holds_until_the_wheels_are_free():
+    teller = watch.Teller()
+    stopped, runs = DriveState(state=DriveState.STOPPED, reason=DriveState.EMERGENCY_STOP), DriveState(state=DriveState.RUNNING)
+    told = [line.text for time, state in ((1, stopped), (2, stopped), (9, runs)) for line in teller.lines(at(time, state))]
+    assert told == ["The robot is stopped: the emergency stop was pressed, release it; let go of the stick. 0 s.", "The robot can be driven. 8 s."]
 
 
 def test_a_pattern_that_is_felt_again_is_told_again_and_of_a_sound_its_side():

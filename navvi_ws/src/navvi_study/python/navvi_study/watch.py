@@ -39,7 +39,7 @@ STOPS = {
     DriveState.COMMAND_INVALID: "the commands were not valid",
     DriveState.DRIVER_CHANGED: "the commands came by another connection",
     DriveState.CLOCK_JUMPED: "the time jumped",
-    DriveState.EMERGENCY_STOP: "the emergency stop is pressed",
+    DriveState.EMERGENCY_STOP: "the emergency stop was pressed, release it",
 }
 WAITING = {TrialState.PREPARING: "A trial is being prepared", TrialState.CHOOSE_GOAL: "The trial waits for a goal",
            TrialState.READY: "The trial waits until its person presses start"}
@@ -102,7 +102,7 @@ class Teller:
             self.state, self.distance = message.state, message.goal_distance
             self.told.pop("distance", None)
             by = f", {plain(message.blocked_by)}" if message.blocked_by else ""
-            text = "The way is free" if waited else STATES.get(message.state, f"State {message.state}")
+            text = "The way is free, wait until you are led on" if waited else STATES.get(message.state, f"State {message.state}")
             yield "state", 1, text + by + to_go
         elif shown and stamp - self.last >= self.QUIET and abs(self.distance - message.goal_distance) >= 1.0:
             self.distance = message.goal_distance
