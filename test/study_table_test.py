@@ -435,9 +435,16 @@ def test_what_is_typed_while_no_trial_runs_is_told_and_is_no_note_of_the_next_tr
     pause = next(step for step in schedule.steps_of(kept.plan, "sub-01") if step.kind == "break")
     pause.run(session.Session(kept, live), kept.progress(), kept.progress().person("sub-01"), None)
     os.write(writer, b"a\n")
-    live.paused = True
-    threading.Timer(0.2, os.write, (writer, b"\n")).start()
+    live.paused, went_on = True, threading.Event()
+
+    def enter():
+        while not went_on.wait(0.2):  # the first may come before the pause waits for it
+            os.write(writer, b"\n")
+    entering = threading.Thread(target=enter, daemon=True)
+    entering.start()
     live.pause()
+    went_on.set()
+    entering.join()
     os.write(writer, b"n before a trial\n")
     session.Session(kept, live, say=lambda line: None).next("sub-01")
     assert [line for line in capsys.readouterr().out.splitlines(keepends=True) if told in line] == [
@@ -447,6 +454,16 @@ def test_what_is_typed_while_no_trial_runs_is_told_and_is_no_note_of_the_next_tr
     begun = time.monotonic()
     live.lines.drop(0.1)
     assert time.monotonic() - begun >= 0.1, "also where nothing can be typed"
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.01])
+def test_what_does_not_cease_to_come_is_read_no_longer_than_it_shall_be(tmp_path, seconds):
+    (tmp_path / "typed").touch()
+    os.truncate(tmp_path / "typed", 1 << 30)  # of zeros, which are all there at once
+    with open(tmp_path / "typed", "rb", buffering=0) as typed:
+        lines = runner.Lines(typed.fileno())
+        lines.drop(seconds)
+        assert lines.open and 0 < typed.tell() < 1 << 30
 
 
 @pytest.mark.parametrize("problem", [StudyError("the disk is full"), UnicodeEncodeError("utf-8", "\udce9", 0, 1, "no"), OSError(28, "No space left")])

@@ -132,24 +132,38 @@ class Lines:
 
     def next(self, seconds=None):
         """A line without its end; None where none has come within so many seconds, or none will."""
-        while self.open and b"\n" not in self.rest and len(self.rest) < LONGEST:
-            if not select.select([self.file], [], [], seconds)[0]:
+        while not self._whole():
+            if not self._read(seconds):
                 return None
-            read = os.read(self.file, LONGEST)
-            self.open = bool(read)
-            self.rest += read
         if not self.rest:
             return None
         line, _, self.rest = self.rest.partition(b"\n")
         return line.decode(errors="replace").strip()
 
     def drop(self, seconds=0.0):
-        """Reads for so many seconds, while nothing takes what is typed, and what was typed before."""
+        """Reads for so many seconds, and once at least, while nothing takes what is typed, also what was typed before."""
         end = time.monotonic() + seconds
-        while (line := self.next(max(0.0, end - time.monotonic()))) is not None:
-            if line:
-                print(f"navvi: \"{line[:40]}\" was typed while no trial runs, and nothing is written.", flush=True)
-        time.sleep(max(0.0, end - time.monotonic()))
+        while True:
+            left = max(0.0, end - time.monotonic())
+            self._read(left)
+            while self.rest and self._whole():
+                if line := self.next():
+                    print(f"navvi: \"{line[:40]}\" was typed while no trial runs, and nothing is written.", flush=True)
+            if left == 0.0:  # however much is still to be read
+                return
+
+    def _whole(self):
+        """Whether a line is read, or no more will be."""
+        return not self.open or b"\n" in self.rest or len(self.rest) >= LONGEST
+
+    def _read(self, seconds):
+        """Whether anything came within so many seconds, be it the end."""
+        came = bool(select.select([self.file] if self.open else [], [], [], seconds)[0])
+        if came:
+            read = os.read(self.file, LONGEST)
+            self.open = bool(read)
+            self.rest += read
+        return came
 
 
 class Desk:
