@@ -469,20 +469,21 @@ def test_practice_that_was_over_when_a_crash_came_goes_no_further(tmp_path, monk
 
 def test_a_freeze_names_each_trial_that_other_exclusions_judge_otherwise(tmp_path, monkeypatch, capsys):
     monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
-    kept, many = frozen(tmp_path), "{column: shelf_collision_count, above: 0, reason: too many}, {column: result"
+    practice = ("limit: 60", "limit: 60\npractice: {worlds: {world: training, seeds: [3]}, collisions_at_most: 3}")
+    kept, many = frozen(tmp_path, practice), "{column: shelf_collision_count, above: 0, reason: too many}, {column: result"
 
     def frozen_anew(*change):
         capsys.readouterr()
-        other = study.Study(small(tmp_path, *change))
+        other = study.Study(small(tmp_path, practice, *change))
         actions.freeze(words(other, reason="once more"))
         told = [line for line in capsys.readouterr().out.splitlines() if "by the plan of now" in line]
         assert ["trials that the exclusions of now judge otherwise than those when they ended", len(told)] in report.quality(other, other.progress())
         return other, told
-    rest(begin(kept, "aborted"))
+    rest(begin(kept, "reached", "aborted"))  # the first is practice, which no exclusion judges
     other, told = frozen_anew(("{column: result", many))
     assert told == [f"sub-01/{trial} counts, and by the plan of now it does not: ./navvi study exclude {other.plan.file} sub-01/{trial} "
-                    "--reason \"too many\"" for trial in ("trial-2", "trial-3")]
-    actions.exclude(exclusion(other, "sub-01/trial-2", "too many"))
+                    "--reason \"too many\"" for trial in ("trial-3", "trial-4")]
+    actions.exclude(exclusion(other, "sub-01/trial-3", "too many"))
     begin(other).next("sub-01")  # in its place, and it does not count by the rule
     assert frozen_anew()[1] == ["sub-01/trial-1 does not count, and by the plan of now it would: too many."]
 

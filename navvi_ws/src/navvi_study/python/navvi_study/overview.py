@@ -1,6 +1,7 @@
 """What `study check` and `study status` print: plain lines, for a screen reader as well."""
 from .schedule import minutes_of, order_of, orders_of, steps_of
 from .session import WHOLE, why_nothing
+from .steps import kind_of
 
 
 def schedule(plan):
@@ -92,9 +93,9 @@ def status(study, progress):
 
 
 def judged_otherwise(study, progress):
-    """A sentence for each trial that the plan's exclusions judge otherwise than those when it ended."""
+    """A sentence for each trial, but practice, that the plan's exclusions judge otherwise than those when it ended."""
     lines = []
-    for person, attempt in ((person, one) for person in progress.kept if not person.excluded for one in person.attempts):
+    for person, attempt in ((person, one) for person in progress.kept if not person.excluded for one in person.attempts if kind_of(one).drop_out):
         name = f"{person.name}/{attempt.trial}"
         reason = study.plan.reason_against([study.summary(person.name, attempt, leg, strict=False) for leg in attempt.legs])
         if attempt.counts and reason:
