@@ -14,7 +14,7 @@ from small_study import Driver, begin, exclusion, frozen, rehearsed, rest, small
 from navvi_cli import workspace
 from navvi_cli.commands import study as command
 from navvi_cli.say import fail
-from navvi_study import actions, export, journal, measures, overview, report, runner, session, study, table
+from navvi_study import actions, export, journal, measures, overview, report, runner, session, study, table, ways
 from navvi_study.analysis import Analysis
 from navvi_study.errors import StudyError
 from sessions import ROOT, eventually
@@ -420,6 +420,24 @@ def test_a_plan_may_have_more_people_and_fewer_worlds_and_no_one_less_who_has_be
     assert report.page(other, other.progress(), rehearsed=False) and rest(begin(other)) == []
     with pytest.raises(StudyError, match="sub-01 has begun, and the plan has no such participant any more"):
         study.Study(small(tmp_path, ("sub-01..sub-04", "sub-02..sub-04")))
+
+
+def test_a_report_has_the_ways_and_cues_of_a_condition_that_a_later_plan_drops(tmp_path):
+    listed, worlds = MOVES["one order"], ("seeds: [2]}", "seeds: [2]}, c: {world: easy, seeds: [5]}")
+    kept = frozen(tmp_path, *listed, worlds, (PAIR, PAIR[:-1] + ", ful-l: {sounds: false}}"))
+    rest(begin(kept))
+    for at in range(3):
+        write_record(trial_of(kept, at=at)[1])
+    other = study.Study(small(tmp_path, *listed))
+    other.freeze("test", "shorter sessions")
+    found = ways.records(other, other.progress())
+    assert [row[0] for row in report.cues(found, other.plan)] == ["full", "plain", "ful-l"]
+    drawn, = report.maps(found, other.plan, lambda *world: b"", "again")
+    assert [row[:2] for row in drawn["rows"]] == [["full", 1], ["plain", 1], ["ful-l", 1]]
+    for one in other, other.blinded():
+        assert report.page(one, one.progress(), rehearsed=False)
+    with pytest.raises(StudyError, match="full and ful-l would both be full "):
+        export.write(other, other.progress(), lambda trial: [])
 
 
 def test_a_trial_is_excluded_whose_step_the_plan_has_no_more(tmp_path, capsys):

@@ -93,7 +93,7 @@ class Analysis:
             rows.append({"group": group, "condition": condition, "participants": len(means), "trials": len(part), "mean": means.mean(),
                          "low": low, "high": high, "sd": means.std(ddof=1), "median": means.median(), "unfinished": int((~part["reached"]).sum())})
         names = [condition.name for condition in self.plan.conditions]
-        return sorted(rows, key=lambda row: (row["group"], names.index(row["condition"]) if row["condition"] in names else -1))
+        return sorted(rows, key=lambda row: (row["group"], names.index(row["condition"]) if row["condition"] in names else len(names)))
 
     def contrast(self, name, first, second, within=0.0):
         """\\param within  above 0: whether the two are equivalent, by two one-sided tests, instead of whether they differ"""

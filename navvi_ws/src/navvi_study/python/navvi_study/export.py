@@ -26,7 +26,10 @@ def write(study, progress, read_way):
     """\\param read_way  takes a trial's folder and returns rows of (s, x, y, yaw)
     Returns the folder, which is written anew."""
     folder, plan = study.folder / "bids", progress.plan
-    for names, label in (plan.participants, _subject), ([condition.name for condition in plan.conditions], _label):
+    shared = agreed(study, progress)
+    rows = [row for row in table.trials(study, progress) if row["counts"] == "yes" and shared[row["participant"]]]
+    conditions = dict.fromkeys([*(one.name for one in plan.conditions), *(row["condition"] for row in rows)])  # a later plan may have one less
+    for names, label in (plan.participants, _subject), (conditions, _label):
         first = {}
         for name in names:
             if (other := first.setdefault(label(name), name)) != name:
@@ -36,8 +39,6 @@ def write(study, progress, read_way):
                                                 "GeneratedBy": [{"Name": "NavVI", "Version": progress.freezes[-1]["version"] if progress.freezes else "n/a"}]})
     write_safely(folder / "README", f"{plan.title}\n\nA robot in a simulated warehouse, driven by a person who is guided by touch, speech and sounds. "
                  f"The acquisition (acq) is the condition. Plan: {plan.hash()}\n")
-    shared = agreed(study, progress)
-    rows = [row for row in table.trials(study, progress) if row["counts"] == "yes" and shared[row["participant"]]]
     people = {row["participant"]: [row["group"], *table.about(study, progress.people[row["participant"]]).values()] for row in rows}
     items = {f"person_{item.name}": {"Description": item.ask} for one in plan.steps["at_begin"] for item in one.items}
     _tsv(folder / "participants.tsv", ["participant_id", "group", *items], [[_subject(name), *cells] for name, cells in sorted(people.items())])

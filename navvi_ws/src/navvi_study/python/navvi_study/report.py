@@ -242,9 +242,14 @@ def measure_part(analysis, name, command):
                   shown(row["sd"]), shown(row["median"])] + ([row["unfinished"]] if censored else []) for row in rows]}
 
 
+def conditions_of(found, plan):
+    """Names of the plan's conditions, then of those that were driven and that it has no more."""
+    return list(dict.fromkeys([*(condition.name for condition in plan.conditions), *(row["condition"] for row, _ in found)]))
+
+
 def maps(found, plan, picture, command):
     """A map a world, with the ways of all its trials."""
-    conditions, parts = [condition.name for condition in plan.conditions], []
+    conditions, parts = conditions_of(found, plan), []
     for (world, seed), driven in ways.by_world(found).items():
         at = {name: number % len(ways.DASHES) for number, name in enumerate(conditions)}
         drawn = picture(world, seed, [(figures.COLOURS[at[name]], ways.DASHES[at[name]], way) for name, way in driven])
@@ -261,7 +266,7 @@ def maps(found, plan, picture, command):
 def cues(found, plan):
     """Rows of the table of cues a minute; none where no trial has a journal."""
     return [[condition, trials, *[shown(count / minutes if minutes else None) for count in counts]]
-            for condition, (trials, minutes, counts) in ways.cues_by_condition(found, [condition.name for condition in plan.conditions]).items()]
+            for condition, (trials, minutes, counts) in ways.cues_by_condition(found, conditions_of(found, plan)).items()]
 
 
 def alt(analysis, name, rows):
