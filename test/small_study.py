@@ -100,7 +100,8 @@ def write_record(folder, end=30.0):
     rows = [(10.0, 1000.0, "TRIAL_START", "x=0;y=0"), (15.0, 1002.5, "PROGRESS", "x=1;y=0"), (end, 1000.0 + (end - 10.0) / 2, "TRIAL_END", "x=2;y=0")]
     (folder / "journal.csv").write_text("trial,seq,sim_ns,mono_ns,type,fields,crc32\n" + "".join(
         f"t,{seq},{int(sim * 1e9)},{int(mono * 1e9)},{kind},{fields},00000000\n" for seq, (sim, mono, kind, fields) in enumerate(rows, 1)))
-    (folder / "events.csv").write_text("onset_s,duration_s,trial,trial_type,robot_x_m,robot_y_m,detail\n2.500,0,t,goal reached,1.0,2.0,n/a\n")
+    (folder / "events.csv").write_text("onset_s,duration_s,trial,trial_type,robot_x_m,robot_y_m,detail\n2.500,0,t,goal reached,1.0,2.0,n/a\n"
+                                       "3.500,0,t,intruder,1.0,2.0,/rostopic_7_1767225600000\n")
 
 
 def rest(begun, name="sub-01"):

@@ -20,6 +20,7 @@ SHARE = "share"  # item of the consent: who did not say yes to it is left out
 PARTICIPANTS = {"group": {"Description": "group of the plan"}}
 EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Units": "s"}, "duration": {"Units": "s"},
           "trial_type": {"Description": "what happened, as doc/record.md lists it, or the experimenter's mark, note, intervention, pause or abort"}}
+DETAIL = "kind of a cue, or reason, state, device, result, what assistance does, how late commands come, or name of a parameter; n/a of an intruder"
 
 
 def write(study, progress, read_way):
@@ -78,11 +79,12 @@ def _trial(folder, row, attempt, run, study, read_way):
         "POSChannelCount": 2, "ORNTChannelCount": 1, "RecordingDuration": round(len(way) / RATE, 3), "RecordingType": "continuous",
         "SpatialAxes": "FLS", "RotationRule": "right-hand", "RotationOrder": "XYZ", "ManufacturersModelName": "navvi_sim",
         "SoftwareVersions": row.get("version", "n/a")})
-    events = [[event["onset_s"], event["duration_s"], event["trial_type"], event.get("robot_x_m", "n/a"), event.get("robot_y_m", "n/a"), event["detail"]]
+    events = [[event["onset_s"], event["duration_s"], event["trial_type"], event.get("robot_x_m", "n/a"), event.get("robot_y_m", "n/a"),
+               "n/a" if event["trial_type"] == "intruder" else event["detail"]]  # names of nodes have dates, such as /rostopic_7_1767225600000
               for event in table.events_of(study, row["participant"], attempt, row["trial"], words=False)]
     _tsv(place / f"{name}_{end}_events.tsv", ["onset", "duration", "trial_type", "robot_x", "robot_y", "detail"], events)
     _json(place / f"{name}_{end}_events.json", {**EVENTS, **{f"robot_{axis}": {"Description": "of the robot in map", "Units": "m"} for axis in "xy"},
-                                                "detail": {"Description": "kind of a cue, or reason, state, device or result"}})
+                                                "detail": {"Description": DETAIL}})
 
 
 def resampled(way, rate):

@@ -27,7 +27,8 @@ EVENTS = {
     "wall_clock_utc": "ISO 8601", "obstacle_position": "left, right or center", "elapsed_s": "simulated time, when the goal is reached",
     "robot_x_m": "of the robot in map", "robot_y_m": "of the robot in map", "goal_x_m": "of the goal in map", "goal_y_m": "of the goal in map",
     "thing_class": "of what came near or was hit", "thing": "its name", "spoken": "words of a cue",
-    "detail": "kind of a cue, or reason, state, device, result, or the experimenter's words",
+    "detail": "kind of a cue, or reason, state, device, result, what assistance does, how late commands come, node of an intruder, name of a "
+              "parameter, or the experimenter's words",
 }
 ANSWERS = {
     "answer": "as given, or declined; pointed directions in whole degrees, counter-clockwise from straight ahead",
