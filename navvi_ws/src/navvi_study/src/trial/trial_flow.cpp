@@ -10,6 +10,7 @@ constexpr double kGuidanceLost = 10.0;             // s
 constexpr double kFeedbackLost = 5.0;              // s; it reports four times a second
 constexpr double kOperatorLost = 10.0;             // s
 constexpr double kSilent = 1.0;                    // s, of a part that a signal did not end
+constexpr double kPlans = 1.5;                     // s, likewise; nav_node may plan for 1 s
 constexpr std::int64_t kTimeBack = 1'000'000'000;  // ns
 constexpr double kGoalAgain = 2.0;                 // s, before a goal is sent again
 constexpr int kGoalTries = 3;
@@ -54,7 +55,7 @@ std::optional<Ending> TrialFlow::watch(const Signs& signs) {
 
 std::string TrialFlow::reason_of_stop(const Signs& signs) {
   if (signs.odometry_silence > kSilent) return "simulator_lost";
-  if (signs.guidance_silence > kSilent) return "guidance_lost";
+  if (signs.guidance_silence > kPlans) return "guidance_lost";
   if (signs.feedback_silence > kSilent) return "feedback_lost";
   return "stopped_by_signal";
 }
