@@ -139,6 +139,12 @@ TEST_F(Monitor, counts_the_contacts_of_a_simulator_that_was_started_anew_between
     EXPECT_EQ(monitor_.tally().missed_messages, 0u);
     EXPECT_FALSE(monitor_.world_restarted());
   }
+  TrialMonitor monitor{TrialMonitorConfig()};  // of a session that was no longer than this one
+  (void)monitor.observe(contact(5.0, 7, "shelf", 5, 2));
+  monitor.start(monitor.start_now(20 * kSecond, {5.0, 0.0}));
+  EXPECT_EQ(types(monitor.observe(contact(21.0, 1, "shelf", 1, 0))), Names{"COLLISION"});
+  EXPECT_EQ(monitor.tally().missed_messages, 0u);
+  EXPECT_FALSE(monitor.world_restarted());
 }
 
 TEST_F(Monitor, R3_makes_a_lost_contact_good_from_the_running_counts) {
