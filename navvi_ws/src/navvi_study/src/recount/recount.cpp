@@ -26,6 +26,7 @@ trial::TrialStart start_of(const record::Row& row) {
   start.hits = {static_cast<std::uint32_t>(count_in(row, "contact_seq")),
                 count_in(row, "shelf_contacts"), count_in(row, "obstacle_contacts")};
   start.hits_known = row.fields.number("contact_seq").has_value();
+  start.round_trip = row.fields.number("round_trip").value_or(0.0);
   if (!row.fields.find("stuck_cues")) start.stuck = {navvi_types::CueKind::stuck};
   return start;
 }

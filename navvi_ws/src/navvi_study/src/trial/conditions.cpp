@@ -115,7 +115,7 @@ void add_conditions(record::Fields& fields, const TrialNodeConfig& config,
   for (const auto& [name, value] : computer()) fields.set(name, value);
   set_study(fields, config.study);
   fields.set("goal_x", start.goal.x(), 6).set("goal_y", start.goal.y(), 6);
-  fields.set("limit", config.limit);
+  fields.set("limit", config.limit).set("round_trip", start.round_trip, 6);
   fields.set("contacts", config.contacts);
   const bool known = start.hits_known || start.hits.contact_seq > 0;
   fields.set("contact_seq", known ? std::to_string(start.hits.contact_seq) : "n/a");

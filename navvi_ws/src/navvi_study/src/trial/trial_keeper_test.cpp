@@ -321,8 +321,9 @@ TEST_F(Trials, name_what_was_set_and_every_device_and_the_hour_of_each_row) {
   const std::map<std::string, std::string> traits{{"name", "DualSense"}, {"firmware", "552"}};
   keeper_->take(DeviceReport{now().ros_ns, "pad", DeviceState::works, traits}, now());
   live(1.0);
-  for (const char* field : {"settings=sim/seed%3d3;", ";pad_name=DualSense;pad_firmware=552;",
-                            ";voice=unknown;", "x=", "utc=2023-11-14T22:13:2"})
+  for (const char* field :
+       {"settings=sim/seed%3d3;", ";pad_name=DualSense;pad_firmware=552;", ";voice=unknown;",
+        ";round_trip=0.000000;", "x=", "utc=2023-11-14T22:13:2"})
     EXPECT_TRUE(holds("journal.csv", field)) << field;
   live(1.0, State::following, kScenario.goal);
   live(9.0, State::arrived, kScenario.goal);

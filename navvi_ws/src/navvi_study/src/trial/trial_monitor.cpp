@@ -58,7 +58,7 @@ TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& go
   // Others are of a simulator that was started anew since then, and counts from 1.
   const bool known = hits_.stamp <= begin;
   if (!known) hits_ = {};
-  return {begin, goal, hits_, known};
+  return {begin, goal, hits_, known, round_trip_};
 }
 
 void TrialMonitor::start(const TrialStart& start) {
@@ -261,7 +261,7 @@ bool TrialMonitor::about_this_goal(const Guidance& guidance) {
   // Each time that a goal is set, the guide plans anew, also to where it leads already.
   const bool old =
       goal_matches && before && same(before->goal, start_->goal) &&
-      guidance.stamp <= start_->stamp + ns(kOldNews) &&
+      guidance.stamp <= start_->stamp + ns(kOldNews + start_->round_trip) &&
       (guidance.plans == before->plans || guidance.replan_reason != Guidance::Replan::new_goal);
   if (guidance.state == State::goal_refused) {
     // A refusal may come with the goal that is still valid. The last goal's may be of this place:

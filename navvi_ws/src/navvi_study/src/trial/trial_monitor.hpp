@@ -77,6 +77,7 @@ struct TrialStart {
   Hits hits = {};  ///< before the trial
   /// These are the world's, also as 0; else a first contact may follow others' in it.
   bool hits_known = false;
+  double round_trip = 0.0;  ///< s, of the connection
   /// Kinds of cues that say that the robot is stuck; records of 0.1.0 count the first alone.
   std::vector<CueKind> stuck = {CueKind::stuck, CueKind::stuck_unknown, CueKind::back_away};
 };

@@ -355,6 +355,20 @@ TEST_F(Monitor, does_not_take_the_path_to_its_goal_that_was_followed_before_it_f
   EXPECT_EQ(monitor.tally_fields().get("reroutes"), "0");
 }
 
+TEST_F(Monitor, takes_no_path_of_before_for_its_own_while_its_goal_is_on_a_slow_connection) {
+  TrialMonitor monitor{TrialMonitorConfig()};
+  LinkState link;
+  link.stamp = 9 * kSecond;
+  link.round_trip = 3.0;
+  (void)monitor.observe(link);
+  (void)monitor.observe(guidance(9.9, State::following));
+  monitor.start(monitor.start_now(10 * kSecond, {5.0, 0.0}));
+  EXPECT_EQ(types(monitor.observe(guidance(14.9, State::following, 2))), Names{});
+  EXPECT_FALSE(monitor.goal_taken());
+  EXPECT_EQ(types(monitor.observe(guidance(15.1, State::following, 3))),
+            (Names{"GUIDANCE", "ROUTE"}));
+}
+
 TEST_F(Monitor, does_not_take_another_goals_path_for_its_own) {
   auto other = guidance(10.5, State::following);
   other.goal = {1.0, 1.0};
