@@ -176,6 +176,8 @@ void LoopTrial::begin() {
   if (bag_)
     trial::add_conditions(fields, config_, scenario_of(loop_),
                           settings_of(loop_.config()), start_, "");
+  else
+    fields.set("settings", "feedback/lead=" + loop_.config().feedback.lead(true));
   fields.set("phrases", phrases_.filename().string());
   fields.set("pad", "simulated").set("audio", "simulated");
   push({"TRIAL_START", fields, start_.stamp});

@@ -235,7 +235,12 @@ double told_before(const Trial& trial, std::string thing_class, double time) {
       named(time_of(row));
   return told;
 }
-std::vector<Warning> warnings_of(const Trial& trial) {
+/// nullopt where it is not known what was felt: without a track, and where the motors lead, which
+/// turn for the course and not for what is near.
+std::optional<std::vector<Warning>> warnings_of(const Trial& trial) {
+  const std::string settings = " " + text_of(start_of(trial), "settings") + " ";
+  if (trial.track.empty() || settings.find(" feedback/lead=hand ") != settings.npos)
+    return std::nullopt;
   std::vector<Warning> found;
   for (const Row& row : trial.rows)
     if (row.type == "COLLISION" && is_mover(row.fields.get("class")))
@@ -243,10 +248,10 @@ std::vector<Warning> warnings_of(const Trial& trial) {
           {felt_before(trial, row), told_before(trial, row.fields.get("class"), time_of(row))});
   return found;
 }
-std::ptrdiff_t late_warnings(const Trial& trial) {
+double late_warnings(const Trial& trial) {
   const auto all = warnings_of(trial);
-  return std::count_if(all.begin(), all.end(),
-                       [](const Warning& one) { return one.felt < kFelt || one.told < kTold; });
+  const auto late = [](const Warning& one) { return one.felt < kFelt || one.told < kTold; };
+  return all ? static_cast<double>(std::count_if(all->begin(), all->end(), late)) : kUnknown;
 }
 std::string warned(const Trial& trial) {
   std::vector<std::string> words;
@@ -358,9 +363,9 @@ std::vector<Figure> all_figures() {
        counts(is_near_mover)},
       {"least_gap_m", "m", "from the hull to anything", "", value(least_gap, 2)},
       {"late_warnings", "",
-       "contacts with movers that were felt < 3 s or named < 2 s before; known in English only", "",
-       of_contacts(in_english(tracked(late_warnings)))},
-      {"warned", "", "s felt/named before each contact with a mover; known in English only", "",
+       "contacts with movers felt < 3 s or named < 2 s before; in English, where no motors lead",
+       "", of_contacts(in_english(value(late_warnings, 0)))},
+      {"warned", "", "s felt/named before each contact with a mover, likewise", "",
        of_contacts(in_english(warned))},
       {"stuck_count", "", "times that a cue reports being stuck", "", counts("STUCK")},
       {"replan_count", "", "times that the path was searched again", "",

@@ -212,6 +212,15 @@ TEST(Figures, tell_how_long_a_motor_had_turned_while_the_thing_was_near_that_was
   }
 }
 
+TEST(Figures, tell_of_no_warning_by_motors_that_lead) {
+  for (const char* lead : {"hand", "ticks"}) {
+    Made trial = minute();
+    trial.rows.front().fields.set("settings", std::string("cues/a=1 feedback/lead=") + lead);
+    for (const char* name : {"late_warnings", "warned"})
+      EXPECT_EQ(columns(trial)[name] == "n/a", lead == std::string("hand")) << name;
+  }
+}
+
 TEST(Figures, of_words_are_not_known_in_another_language) {
   Made trial = minute();
   trial.rows.front().fields = Fields().set("phrases", "es.yaml");
