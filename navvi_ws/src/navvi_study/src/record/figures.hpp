@@ -57,7 +57,8 @@ using Summary = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] std::string cell_of(const Summary& summary, const std::string& name);
 
 /// A sentence for each column of the summary that the recount has otherwise, but `bag`, as no bag
-/// holds how it was closed. A summary of an earlier version has fewer columns.
+/// holds how it was closed, and what an earlier version counted by another meaning. A summary of
+/// such a version has fewer columns.
 [[nodiscard]] std::vector<std::string> differences(const Summary& summary, const Summary& recount);
 
 }  // namespace navvi_study::record

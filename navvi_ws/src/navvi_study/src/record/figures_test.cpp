@@ -333,6 +333,22 @@ TEST(Summary, of_an_older_version_may_lack_columns) {
   EXPECT_TRUE(differences(older, summarize(example())).empty());
 }
 
+TEST(Summary, that_was_counted_before_figures_had_their_meaning_is_compared_without_them) {
+  const auto now = summarize(minute());
+  for (const bool before : {true, false}) {
+    auto summary = now;
+    for (auto& [name, cell] : summary)
+      if (name == "warned" || name == "spl") cell = "0.7";
+    if (before)
+      summary.erase(std::find_if(summary.begin(), summary.end(),
+                                 [](const auto& one) { return one.first == "phrases"; }));
+    EXPECT_EQ(differences(summary, now).size(), before ? 0U : 2U);
+    for (auto& [name, cell] : summary)
+      if (name == "elapsed_s") cell = "1.000";
+    EXPECT_EQ(differences(summary, now).size(), before ? 1U : 3U);
+  }
+}
+
 TEST(Events, stand_in_the_papers_words_with_onset_and_duration_first) {
   const std::string text = events_csv(example());
   EXPECT_EQ(text.rfind("onset_s,duration_s,trial,participant,wall_clock_utc,trial_type,", 0), 0u);
