@@ -50,12 +50,6 @@ const Row* sums_of(const Trial& trial) {
                [](const Row& one) { return one.fields.find("path_length").has_value(); });
 }
 
-std::string count_of(const Trial& trial, const std::string& type, const std::string& kind) {
-  return std::to_string(std::count_if(trial.rows.begin(), trial.rows.end(), [&](const Row& row) {
-    return row.type == type && (kind.empty() || row.fields.get("kind") == kind);
-  }));
-}
-
 /// \param share  [0, 1] of the values that are not above it
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return kUnknown;
@@ -85,13 +79,15 @@ Of field_of(const Row* (*row)(const Trial&), const std::string& field) {
 }
 Of as_begun(const std::string& field) { return field_of(start_of, field); }
 Of as_summed(const std::string& field) { return field_of(sums_of, field); }
-Of counts(const char* type, const char* kind = "") {
-  return [=](const Trial& trial) { return count_of(trial, type, kind); };
-}
-Of counts(bool (*test)(const Row&)) {
+Of counts(const std::function<bool(const Row&)>& test) {
   return [=](const Trial& trial) {
     return std::to_string(std::count_if(trial.rows.begin(), trial.rows.end(), test));
   };
+}
+Of counts(const char* type, const char* kind = nullptr) {
+  return counts([=](const Row& row) {
+    return row.type == type && (kind == nullptr || row.fields.get("kind") == kind);
+  });
 }
 Of value(double (*of)(const Trial&), int decimals = 3) {
   return [=](const Trial& trial) { return text_of(of(trial), decimals); };
@@ -143,31 +139,21 @@ double spl(const Trial& trial) {
   return shortest / std::max(number_of(sums_of(trial), "path_length"), shortest);
 }
 
-/// s, from rows of a type that count to the next one of it.
-template <typename Counts>
-std::string time_in(const Trial& trial, const char* type, const Counts& counts_row) {
-  double sum = 0.0, since = 0.0;
-  bool inside = false;
-  for (const Row& row : trial.rows) {
-    if (row.type != type) continue;
-    if (inside) sum += time_of(row) - since;
-    inside = counts_row(row);
-    since = time_of(row);
-  }
-  return text_of(inside ? sum + trial.end() - since : sum);
-}
-
-/// s, in a state of the guidance.
-Of in_state(const char* state) {
+/// s, from rows of a type whose field has that word, or without `has` any other, to the next one.
+Of time_in(const char* type, const char* field, const char* word, bool has = true) {
   return [=](const Trial& trial) {
-    return time_in(trial, "GUIDANCE",
-                   [=](const Row& row) { return row.fields.get("state") == state; });
+    double sum = 0.0, since = 0.0;
+    bool inside = false;
+    for (const Row& row : trial.rows) {
+      if (row.type != type) continue;
+      if (inside) sum += time_of(row) - since;
+      inside = (row.fields.get(field) == word) == has;
+      since = time_of(row);
+    }
+    return text_of(inside ? sum + trial.end() - since : sum);
   };
 }
-std::string assisted(const Trial& trial) {
-  return time_in(trial, "ASSISTED",
-                 [](const Row& row) { return row.fields.get("does") != "nothing"; });
-}
+Of in_state(const char* state) { return time_in("GUIDANCE", "state", state); }
 
 // Contacts.
 
@@ -177,10 +163,9 @@ Of of_contacts(const Of& of) {
     return text_of(start_of(trial), "contacts") != "unknown" ? of(trial) : "unknown";
   };
 }
-std::string contacts_per_100m(const Trial& trial) {
-  const double driven = number_of(sums_of(trial), "path_length");
-  return driven == 0.0 ? kNothing
-                       : text_of(100.0 * std::stod(count_of(trial, "COLLISION", "")) / driven);
+/// Not finite, and so not known, where the robot stood.
+double contacts_per_100m(const Trial& trial) {
+  return 100.0 * std::stod(counts("COLLISION")(trial)) / number_of(sums_of(trial), "path_length");
 }
 std::string listed(const std::vector<std::string>& words) {
   return words.empty() ? "-" : boost::algorithm::join(words, " ");
@@ -255,10 +240,11 @@ double late_warnings(const Trial& trial) {
   return all ? static_cast<double>(std::count_if(all->begin(), all->end(), late)) : kUnknown;
 }
 std::string warned(const Trial& trial) {
+  const auto all = warnings_of(trial);
   std::vector<std::string> words;
-  for (const Warning& one : warnings_of(trial))
+  for (const Warning& one : all.value_or(std::vector<Warning>()))
     words.push_back(text_of(one.felt, 1) + "/" + text_of(one.told, 1));
-  return trial.track.empty() ? kNothing : listed(words);
+  return all ? listed(words) : kNothing;
 }
 
 // What was said, and how the hands moved.
@@ -274,11 +260,9 @@ std::string turns_per_minute(const Trial& trial) {
   return found ? text_of(60.0 * found->turns / (trial.end() - trial.begin()), 1) : kNothing;
 }
 std::size_t led_turns(const Trial& trial) { return turns_of(trial).left.size(); }
+template <int Percent>
 double residual(const Trial& trial) {
-  return navvi_types::degrees(quantile(turns_of(trial).left, 0.5));
-}
-double residual_90(const Trial& trial) {
-  return navvi_types::degrees(quantile(turns_of(trial).left, 0.9));
+  return navvi_types::degrees(quantile(turns_of(trial).left, 0.01 * Percent));
 }
 double cue_to_action(const Trial& trial) { return quantile(turns_of(trial).late, 0.5); }
 double motors(const Trial& trial) {
@@ -348,7 +332,8 @@ std::vector<Figure> all_figures() {
       {"obstacle_collision_count", "", "collisions with everything else", kPaper,
        of_contacts(counts("COLLISION", "obstacle"))},
       {"contacts", "", "collisions with anything", "", of_contacts(counts("COLLISION"))},
-      {"contacts_per_100m", "", "collisions per 100 m driven", "", of_contacts(contacts_per_100m)},
+      {"contacts_per_100m", "", "collisions per 100 m driven", "",
+       of_contacts(value(contacts_per_100m))},
       {"hits", "", "collisions by class", "", of_contacts(hits)},
       {"path_length_m", "m", "way driven", "", as_summed("path_length")},
       {"first_path_length_m", "m", "of the first path, if the goal was not changed", "",
@@ -380,7 +365,7 @@ std::vector<Figure> all_figures() {
       {"round_trip_99", "s", "highest 99th percentile of 5 s", "", last("TRIAL_END", "round_trip_99")},
       {"link_loss", "", "share of the commands that never came", "", last("TRIAL_END", "link_loss")},
       {"assisted_s", "s", "in which the robot slowed or steered by itself before what it would hit", "",
-       assisted},
+       time_in("ASSISTED", "does", "nothing", false)},
       {"device_loss_count", "", "losses of pad, audio or voice", "", counts(is_device_loss)},
       {"cues_spoken", "", "sentences", "", as_summed("cues_spoken")},
       {"sounds_played", "", "short sounds", "", sounds_played},
@@ -409,8 +394,8 @@ std::vector<Figure> all_figures() {
       {"off_mesh_s", "s", "in that state of the guidance", "", in_state("off_mesh")},
       {"led_turns", "", "turns on the spot of more than 15 deg, with somewhere to steer", "",
        tracked(led_turns)},
-      {"residual_deg", "deg", "angle that these left, median", "", value(residual, 1)},
-      {"residual_90_deg", "deg", "90th percentile of this angle", "", value(residual_90, 1)},
+      {"residual_deg", "deg", "angle that these left, median", "", value(residual<50>, 1)},
+      {"residual_90_deg", "deg", "90th percentile of this angle", "", value(residual<90>, 1)},
       {"cue_to_action_s", "s", "from a cue that asks for a turn to the turn, median", "",
        value(cue_to_action, 2)},
       {"motors", "", "share of the time in which a motor turns", "", tracked(motors, 3)},
