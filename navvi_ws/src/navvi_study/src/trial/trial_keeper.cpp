@@ -261,7 +261,7 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
   goals_.before.reset();
   const Eigen::Vector2d& goal = goals_.now.place;
   TrialStart beginning = monitor_.start_now(now_.ros_ns, goal);
-  beginning.hits_known &= offered_.scenario && config_.sources.link.empty();
+  beginning.hits_known = offered_.scenario && config_.sources.link.empty();
   monitor_.start(beginning);
   tracker_.start(beginning.stamp);
   listen();

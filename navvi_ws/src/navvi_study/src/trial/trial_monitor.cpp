@@ -54,11 +54,7 @@ bool TrialMonitor::ahead(std::int64_t stamp, std::int64_t clock) const {
 
 TrialStart TrialMonitor::start_now(std::int64_t stamp, const Eigen::Vector2d& goal) {
   if (1e-9 * static_cast<double>(latest_ - stamp) > kAhead + round_trip_) latest_ = stamp;
-  const std::int64_t begin = std::max(stamp, latest_);
-  // Others are of a simulator that was started anew since then, and counts from 1.
-  const bool known = hits_.stamp <= begin;
-  if (!known) hits_ = {};
-  return {begin, goal, hits_, known, round_trip_};
+  return {std::max(stamp, latest_), goal, hits_, false, round_trip_};
 }
 
 void TrialMonitor::start(const TrialStart& start) {
@@ -207,7 +203,7 @@ std::vector<Event> TrialMonitor::observe(const Contact& contact) {
       collision(nullptr, false, contact.stamp, events);
     collision(&contact, shelf, contact.stamp, events);
   }
-  hits_ = {contact.seq, shelves, obstacles, contact.stamp};
+  hits_ = {contact.seq, shelves, obstacles};
   return events;
 }
 

@@ -67,7 +67,6 @@ struct Hits {
   std::uint32_t contact_seq = 0;
   std::uint64_t shelf_count = 0;
   std::uint64_t obstacle_count = 0;
-  std::int64_t stamp = 0;  ///< not in a record
 };
 
 /// What a trial's first row says, so that the same messages give the same events again.

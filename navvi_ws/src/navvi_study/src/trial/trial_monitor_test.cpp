@@ -126,15 +126,17 @@ TEST_F(Monitor, T1_begins_at_the_time_that_is_where_the_clock_was_set_back) {
 }
 
 TEST_F(Monitor, counts_the_contacts_of_a_simulator_that_was_started_anew_between_two_trials) {
-  (void)monitor_.observe(contact(5000.0, 7, "shelf", 5, 2));
-  for (const bool hit_before : {false, true}) {
-    monitor_.start({5000 * kSecond, {5.0, 0.0}, {7, 5, 2, 5000 * kSecond}});
+  struct Row {
+    double last;  ///< s, by the clock before, when it was hit last
+    bool hit_before;
+  };
+  for (const Row& row : {Row{5000.0, false}, {5000.0, true}, {5.0, false}, {5.0, true}}) {
+    monitor_.start({5000 * kSecond, {5.0, 0.0}});
+    EXPECT_TRUE(monitor_.observe(contact(row.last, 7, "shelf", 5, 2)).empty());
     (void)monitor_.observe(guidance(5001.0, State::following));
-    EXPECT_TRUE(!hit_before || monitor_.observe(contact(15.0, 1, "shelf", 1, 0)).empty());
-    const TrialStart start = monitor_.start_now(20 * kSecond, {5.0, 0.0});
-    EXPECT_EQ(start.hits.contact_seq, hit_before ? 1u : 0u);
-    monitor_.start(start);
-    EXPECT_EQ(seen(contact(21.0, hit_before ? 2U : 1U, "worker", hit_before ? 1 : 0, 1)),
+    EXPECT_TRUE(!row.hit_before || monitor_.observe(contact(15.0, 1, "shelf", 1, 0)).empty());
+    monitor_.start(monitor_.start_now(20 * kSecond, {5.0, 0.0}));
+    EXPECT_EQ(seen(contact(21.0, row.hit_before ? 2U : 1U, "worker", row.hit_before ? 1 : 0, 1)),
               Names{"COLLISION"});
     EXPECT_EQ(monitor_.tally().missed_messages, 0u);
     EXPECT_FALSE(monitor_.world_restarted());
