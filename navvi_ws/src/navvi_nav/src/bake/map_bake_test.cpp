@@ -96,7 +96,7 @@ TEST(MapBake, keeps_the_margin_from_every_voxel_and_loses_less_than_a_cell) {
                      9.0 * static_cast<double>(random()) / 4294967296.0};
       const auto covers =
           std::count_if(outlines.begin(), outlines.end(),
-                        [at](const auto& outline) { return convex_contains(outline, at); });
+                        [at](const auto& outline) { return nearest_in_convex(at, outline) == at; });
       ASSERT_LE(covers, 1) << seed;
       const double clearance = map.floor->clearance(at);
       if (covers == 1) {

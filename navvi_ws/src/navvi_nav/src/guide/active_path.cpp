@@ -3,17 +3,9 @@
 namespace navvi_nav::guide {
 namespace {
 
-constexpr double kAhead = 20.0;   // m, of the path that counts
-constexpr double kAside = 0.5;    // m, less is no change to a person
-constexpr double kSample = 0.25;  // m
-
-double away(Point point, const Path& path) {
-  double best = distance(point, path.front());
-  for (std::size_t i = 1; i < path.size(); ++i)
-    best = std::min(best, distance(point, nearest_on_segment(point, path[i - 1], path[i])));
-  return best;
-}
-
+constexpr double kAhead = 20.0;     // m, of the path that counts
+constexpr double kAside = 0.5;      // m, less is no change to a person
+constexpr double kSample = 0.25;    // m
 constexpr double kElsewhere = 2.0;  // m of a path that a new one leaves: the person is rerouted
 
 }  // namespace

@@ -135,13 +135,6 @@ bool PathFollower::cut_off(Point robot, const map::Floor& floor) const {
          !floor.segment_clear(robot, steer_point(robot, floor), 0.0);
 }
 
-double PathFollower::offset(Point robot) const {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < path_.size(); ++i)
-    least = std::min(least, distance(robot, nearest_on_segment(robot, path_[i], path_[i + 1])));
-  return least;
-}
-
 void PathFollower::report(Guidance& out, const Pose2& robot, const map::Floor& floor) const {
   const Point at = to_point(robot.position);
   const Point ahead{std::cos(robot.yaw), std::sin(robot.yaw)};

@@ -51,7 +51,7 @@ class PathFollower {
     return sees(robot, robot + std::min(1.0, within / std::max(norm(leg), 1e-9)) * leg, space);
   }
   /// m, from the robot to the nearest point of the path. following() must hold.
-  [[nodiscard]] double offset(Point robot) const;
+  [[nodiscard]] double offset(Point robot) const { return away(robot, path_); }
   /// True if something stands between a robot and the leg that it follows, as when a localizer
   /// corrects itself. following() must hold.
   [[nodiscard]] bool cut_off(Point robot, const map::Floor& floor) const;

@@ -90,10 +90,8 @@ std::optional<Point> CutMesh::nearest_on_floor(Point point, const std::set<int>&
 }
 
 Point CutMesh::nearest_on_base(Point point, int base) const {
-  std::vector<Point> corners;
-  for (const ExactPolygon::Edge& edge : bases_[base].shape.edges)
-    corners.push_back(position(edge.begin));
-  return nearest_in_convex(point, corners);
+  return nearest_in_convex(point, bases_[base].shape.edges,
+                           [this](const ExactPolygon::Edge& edge) { return position(edge.begin); });
 }
 
 ExactPolygon CutMesh::shape_of(const GridPolygon& polygon) const {

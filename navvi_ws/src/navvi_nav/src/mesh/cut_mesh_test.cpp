@@ -108,7 +108,7 @@ bool in_floor(const std::vector<GridPolygon>& floor, Point at) {
     std::vector<Point> corners;
     for (const auto& corner : polygon.corners)
       corners.push_back({corner[0] * kUnit, corner[1] * kUnit});
-    if (convex_contains(corners, at)) return true;
+    if (nearest_in_convex(at, corners) == at) return true;
   }
   return false;
 }

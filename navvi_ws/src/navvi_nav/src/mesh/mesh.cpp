@@ -1,30 +1,6 @@
 #include "mesh/mesh.hpp"
 
 namespace navvi_nav::mesh {
-namespace {
-
-/// The point of the polygon nearest to `point`. A point outside is measured to every edge: by
-/// rounding it may lie beyond one of several edges in line, and nearest to another.
-Point nearest_point(const Mesh& mesh, const Polygon& polygon, Point point) {
-  bool inside = true;
-  Point a = mesh.at(polygon.corners.back());
-  for (const int corner : polygon.corners) {
-    const Point b = mesh.at(corner);
-    inside = inside && cross(b - a, point - a) >= 0.0;
-    a = b;
-  }
-  if (inside) return point;
-  Point best = a;
-  for (const int corner : polygon.corners) {
-    const Point b = mesh.at(corner);
-    const Point candidate = nearest_on_segment(point, a, b);
-    if (distance(candidate, point) < distance(best, point)) best = candidate;
-    a = b;
-  }
-  return best;
-}
-
-}  // namespace
 
 std::vector<Point> Mesh::outline(int index) const {
   std::vector<Point> out;
@@ -60,10 +36,11 @@ std::optional<Mesh::Place> Mesh::locate(Point point, double within,
                                         std::optional<int> component) const {
   std::optional<Place> best;
   double best_distance = within;
+  const auto corner_at = [this](int corner) { return at(corner); };
   const auto look = [&](int index) {
     const Polygon& candidate = polygon(index);
     if (component && candidate.component != *component) return;
-    const Point nearest = nearest_point(*this, candidate, point);
+    const Point nearest = nearest_in_convex(point, candidate.corners, corner_at);
     const double away = distance(nearest, point);
     if (!(away <= best_distance)) return;
     if (best && away == best_distance && index >= best->polygon) return;
