@@ -21,6 +21,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "measured.hpp"
@@ -72,7 +73,8 @@ class NavNodeTest : public testing::Test {
     odometry.twist.twist.linear.x = 0.5;
     odometry_.publish(odometry);
     if (moves_) moves_();
-    played_.header.stamp = transform.header.stamp - ros::Duration(obstacles_age_);
+    played_.header.stamp = transform.header.stamp - ros::Duration(obstacles_age_.value_or(0.0));
+    if (!obstacles_age_) played_.header.stamp = ros::Time();
     obstacles_.publish(played_);
   }
 
@@ -135,7 +137,7 @@ class NavNodeTest : public testing::Test {
   tf2_ros::TransformBroadcaster broadcaster_;
   navvi_msgs::Obstacles played_;
   std::function<void()> moves_;  ///< brings played_ up to date
-  double obstacles_age_ = 0.0;   ///< s
+  std::optional<double> obstacles_age_ = 0.0;  ///< s; nullopt: they have no stamp
   bool poses_ = true;            ///< the robot tells its place
   double pose_x_ = 2.0;          ///< m, by transforms
   double odometry_x_ = 2.0;      ///< m, by odometry
@@ -441,8 +443,9 @@ TEST_F(NavNodeTest, drops_obstacles_of_another_time_and_announces_that_none_come
     EXPECT_TRUE(until([&] { return !missing(); })) << age;
     obstacles_age_ = age;
     EXPECT_TRUE(until(missing)) << age;
-    obstacles_age_ = 0.0;
+    obstacles_age_.reset();
   }
+  EXPECT_TRUE(until([&] { return !missing(); })) << "without a stamp";
 }
 
 TEST_F(NavNodeTest, takes_its_goal_as_an_action_as_move_base_does) {

@@ -373,6 +373,7 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
 bool Navigator::keeps_path(const plan::Plan& plan, Guidance::Replan reason, double time) {
   const std::optional<Point> robot = position_of(observation_.last_pose());
   if (!path_.following() || !robot) return false;
+  if (path_.mode() == PathMode::retreat && observation_.obstacles_held() && !cut_off_) return true;
   const std::vector<Cylinder> none;
   const Path remaining = path_.remaining(*robot);
   PathKeeper::Choice choice;
@@ -421,20 +422,20 @@ Guidance Navigator::guidance(double time) const {
   } else if (out.state == Guidance::State::following) {
     report_path(out);
   }
-  const bool fresh = observation_.obstacles_fresh(time);
+  const bool fresh = observation_.obstacles_fresh();
   const bool rejected = observation_.obstacles_rejected();
   if (map_.floor && goal_.place && (!fresh || rejected)) {
     if (!out.detail.empty()) out.detail += "; ";
     out.detail +=
         rejected ? "the obstacles are rejected, as malformed or too many" : "no fresh obstacles";
-    out.detail += fresh ? "" : ": moving things are not in the path";
+    if (!fresh && out.state == Guidance::State::following)
+      out.detail += ": moving things are not in the path";
   }
   return out;
 }
 
-/// What was waited for when obstacles were lost may still be there.
 std::optional<Blocker> Navigator::waits_for() const {
-  if (held_ && observation_.obstacles_lost()) return Blocker{held_->by, held_->at, std::nullopt};
+  if (held_ && observation_.obstacles_held()) return Blocker{held_->by, held_->at, std::nullopt};
   if (path_.mode() == PathMode::waiting) return Blocker{*deadlock_.yields_to(), 0.0, std::nullopt};
   return blocker_ ? blocker_ : keeper_.waits_for();
 }

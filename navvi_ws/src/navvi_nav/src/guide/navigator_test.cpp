@@ -362,7 +362,7 @@ TEST_F(Lockstep, names_what_stands_on_the_goal) {
   EXPECT_EQ(status().state, Guidance::State::following);
 }
 
-TEST_F(Lockstep, waits_on_for_what_stood_there_when_obstacles_were_lost) {
+TEST_F(Lockstep, waits_on_for_20_s_for_what_stood_there_when_obstacles_were_lost) {
   load();
   obstacles_ = {{5, {14, 5}, 0.6, {}}};
   robot_.position = {11.5, 5};
@@ -378,6 +378,15 @@ TEST_F(Lockstep, waits_on_for_what_stood_there_when_obstacles_were_lost) {
   has_obstacles_ = true;
   tick(50);
   EXPECT_EQ(status().state, Guidance::State::following);
+  obstacles_ = {{5, {14, 5}, 0.6, {}}};
+  tick(50);
+  has_obstacles_ = false;
+  tick(395);
+  EXPECT_EQ(status().state, Guidance::State::blocked);
+  EXPECT_EQ(status().detail.find("not in the path"), std::string::npos) << status().detail;
+  tick(50);
+  EXPECT_EQ(status().state, Guidance::State::following);
+  EXPECT_NE(status().detail.find("not in the path"), std::string::npos) << status().detail;
 }
 
 TEST_F(Lockstep, says_no_route_where_the_map_has_none) {
@@ -508,7 +517,7 @@ class Guided : public Lockstep {
       navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_, time_);
       std::vector<MovingThing> things = things_;
       for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
-      navigator_.set_obstacles(things, time_);
+      if (has_obstacles_) navigator_.set_obstacles(things, time_);
       const auto request = navigator_.update(time_);
       if (!request) continue;
       plan::PlanAnswer answer;
@@ -558,6 +567,18 @@ TEST_F(Guided, retreats_from_what_it_faces_waits_there_and_arrives_nowhere) {
   robot_.position = {13.5, 5};
   finds(plan::PlanStatus::found, {{13.5, 5}, {14, 5}}, 0.1);
   EXPECT_EQ(status().state, Guidance::State::arrived);
+}
+
+TEST_F(Guided, makes_room_on_for_20_s_where_obstacles_are_lost) {
+  retreat({{2, 5}, {2, 7}});
+  has_obstacles_ = false;
+  finds(plan::PlanStatus::found, straight_, 19.5);
+  ASSERT_TRUE(navigator_.obstacles_lost());
+  EXPECT_EQ(status().state, Guidance::State::make_room);
+  EXPECT_EQ(status().blocked_by, class_of(7));
+  EXPECT_EQ(status().detail, "no fresh obstacles");
+  finds(plan::PlanStatus::found, straight_, 3.0);
+  EXPECT_EQ(status().state, Guidance::State::following);
 }
 
 TEST_F(Guided, leaves_the_end_of_a_retreat_where_something_hits_it) {

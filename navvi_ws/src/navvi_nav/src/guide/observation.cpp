@@ -33,7 +33,6 @@ void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
   things_ = std::move(things);
   moved_ = std::move(moved);
   obstacles_time_ = time;
-  obstacles_lost_ = false;
   obstacles_rejected_ = false;
 }
 
@@ -54,12 +53,11 @@ std::optional<Pose2> Observation::foreseen() const {
 }
 
 void Observation::update(double time) {
-  obstacles_lost_ = obstacles_time_ && !obstacles_fresh(time);
-  if (obstacles_lost_) obstacles_.clear();
   if (!velocity_time_) velocity_time_ = time;
   if (!velocity_fresh(time)) velocity_ = {};
   const double elapsed = updated_ ? std::clamp(time - *updated_, 0.0, 1.0) : 0.0;
   updated_ = time;
+  if (obstacles_lost()) obstacles_.clear();
   if (speed() > kMoving) pace_ += (speed() - pace_) * (1.0 - std::exp(-elapsed / kMemory));
 }
 
@@ -70,7 +68,7 @@ void Observation::reset_times() {
   moved_.clear();
   obstacles_.clear();
   obstacles_time_.reset();
-  obstacles_lost_ = false;
+  updated_.reset();
   obstacles_rejected_ = false;
 }
 
@@ -83,10 +81,6 @@ std::optional<MovingThing> Observation::thing(std::optional<std::uint32_t> id) c
     if (id && one.id == *id) return one;
   }
   return std::nullopt;
-}
-
-bool Observation::obstacles_fresh(double time) const {
-  return obstacles_time_ && time - *obstacles_time_ <= config_.kObstacleTimeout;
 }
 
 }  // namespace navvi_nav::guide

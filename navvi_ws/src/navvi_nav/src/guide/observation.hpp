@@ -13,6 +13,7 @@ struct ObservationConfig {
   /// s, an older pose or velocity of the robot is stale
   static constexpr double kPoseTimeout = 1.0;
   static constexpr double kObstacleTimeout = 1.0;  ///< s, older obstacles are forgotten
+  static constexpr double kHeld = 20.0;  ///< s, what stood in the way before may be there so long
   static constexpr double kMostAhead = 0.3;  ///< s, of a stamp; clocks and messages differ by less
 
   void describe(navvi_config::Visitor& visit);
@@ -55,9 +56,11 @@ class Observation {
   [[nodiscard]] const std::vector<Cylinder>& obstacles() const { return obstacles_; }
   /// As it was told last.
   [[nodiscard]] std::optional<MovingThing> thing(std::optional<std::uint32_t> id) const;
-  [[nodiscard]] bool obstacles_fresh(double time) const;
+  [[nodiscard]] bool obstacles_fresh() const { return obstacles_time_ && !obstacles_lost(); }
   /// True if the obstacles were dropped as too old; cleared by the next ones.
-  [[nodiscard]] bool obstacles_lost() const { return obstacles_lost_; }
+  [[nodiscard]] bool obstacles_lost() const { return age() > config_.kObstacleTimeout; }
+  /// True while what was in the way when they were lost may still be there.
+  [[nodiscard]] bool obstacles_held() const { return obstacles_lost() && age() <= config_.kHeld; }
   /// The latest could not be taken.
   [[nodiscard]] bool obstacles_rejected() const { return obstacles_rejected_; }
 
@@ -67,13 +70,16 @@ class Observation {
     double time;  ///< s, when it was last seen to move
   };
   static bool by_id(const Moved& a, const Moved& b) { return a.id < b.id; }
+  /// s, of the obstacles at the last update
+  [[nodiscard]] double age() const {
+    return obstacles_time_ && updated_ ? *updated_ - *obstacles_time_ : 0.0;
+  }
 
   ObservationConfig config_;
   std::vector<MovingThing> things_;
   std::vector<Moved> moved_;              ///< that ever did, by id
   std::vector<Cylinder> obstacles_;       ///< the things, as navigation sees them
   std::optional<double> obstacles_time_;  ///< nullopt: none came yet
-  bool obstacles_lost_ = false;
   bool obstacles_rejected_ = false;
   std::optional<Pose2> pose_;
   double pose_time_ = 0.0;

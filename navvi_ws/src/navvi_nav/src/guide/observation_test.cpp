@@ -27,7 +27,7 @@ TEST(Observation, remembers_since_when_a_thing_stands) {
 TEST(Observation, drops_obstacles_that_are_too_old) {
   Observation observation{ObservationConfig{}};
   observation.update(50.0);
-  EXPECT_FALSE(observation.obstacles_fresh(50.0));
+  EXPECT_FALSE(observation.obstacles_fresh());
   EXPECT_FALSE(observation.obstacles_lost());  // none came yet, so none are lost
   observation.set_obstacles({thing(0.0)}, 50.0);
   observation.update(51.0);
@@ -37,9 +37,15 @@ TEST(Observation, drops_obstacles_that_are_too_old) {
   EXPECT_TRUE(observation.obstacles().empty());
   EXPECT_TRUE(observation.thing(7)) << "who waits for it must know what it is";
   EXPECT_TRUE(observation.obstacles_lost());
-  observation.set_obstacles({}, 52.0);
+  EXPECT_FALSE(observation.obstacles_fresh());
+  EXPECT_TRUE(observation.obstacles_held());
+  observation.update(70.1);
+  EXPECT_TRUE(observation.obstacles_lost());
+  EXPECT_FALSE(observation.obstacles_held()) << "it need not be there any more";
+  observation.set_obstacles({}, 71.0);
   EXPECT_FALSE(observation.thing(7));
   EXPECT_FALSE(observation.obstacles_lost());
+  EXPECT_TRUE(observation.obstacles_fresh());
 }
 
 TEST(Observation, T1_gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps) {

@@ -146,7 +146,7 @@ class NavNode {
   void take(const navvi_types::Obstacles& obstacles, double now) {
     using Times = guide::ObservationConfig;
     const double age = now - 1e-9 * static_cast<double>(obstacles.stamp);
-    if (age <= Times::kObstacleTimeout && age >= -Times::kMostAhead)
+    if (obstacles.stamp == 0 || (age <= Times::kObstacleTimeout && age >= -Times::kMostAhead))
       navigator_.set_obstacles(obstacles.things, now);
     else
       ROS_WARN_THROTTLE(5.0, "Obstacles were dropped: they are stamped %.1f s ago.", age);
@@ -271,7 +271,7 @@ class NavNode {
       worker_.start(std::move(*request));
     }
     if (navigator_.obstacles_lost() && !lost_before)
-      ROS_WARN("Obstacle messages have stopped; the path ignores moving things.");
+      ROS_WARN("Obstacle messages have stopped: plans ignore moving things, and waits will end.");
     publish_all();
   }
 
