@@ -5,6 +5,7 @@ namespace {
 
 constexpr double kWayAhead = 3.0;   // m, that must be free of obstacles to keep a path
 constexpr double kNearer = 1.0;     // m, a way toward what is not seen leads nearer by so much
+constexpr double kParted = 20.0;    // s, for maps that show a way to the goal again
 constexpr double kLook = 4.0;       // s, at the end of it, for a map that shows more
 constexpr double kLongLook = 12.0;  // s, likewise while such a map is being baked
 // m, beyond the robot's radius, of the straight way on past a corner
@@ -123,9 +124,9 @@ void Navigator::reset_times(double jump) {
   deadlock_.reset_times();
   conflict_ = {};
   second_ask_.reset();
-  goal_.at_end.reset();
   sent_.carved.reset();
-  for (auto* const time : {&sent_.since, &map_.sent, &map_.time, &map_.mesh_time, &cut_off_})
+  for (auto* const time : {&sent_.since, &map_.sent, &map_.time, &map_.mesh_time, &cut_off_,
+                           &goal_.at_end, &goal_.parted})
     if (*time) **time += jump;
 }
 
@@ -337,6 +338,8 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
   if (plan.ends_short && !path_.following() && plan.status == plan::PlanStatus::found &&
       !leads_nearer(plan.path, *goal_.place))
     return refuse_place(plan.refusal, plan.detail, time);
+  const bool of_map = reason == Guidance::Replan::map_changed;
+  if (plan.status != plan::PlanStatus::refused) goal_.parted.reset();
   switch (plan.status) {
     case plan::PlanStatus::found:
     case plan::PlanStatus::closed:
@@ -351,9 +354,10 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
       return;
     case plan::PlanStatus::refused:
       // A goal that was accepted is not refused later on because of where the robot strayed, or of
-      // one map; but one that was not seen may turn out to be none.
-      if (reason == Guidance::Replan::new_goal ||
-          (reason == Guidance::Replan::map_changed && path_.ends_short()))
+      // a map that is soon made good; but one that was not seen may turn out to be none.
+      if (of_map && !goal_.parted) goal_.parted = time;
+      if (reason == Guidance::Replan::new_goal || (of_map && path_.ends_short()) ||
+          (goal_.parted && time - *goal_.parted >= kParted))
         return refuse_place(plan.refusal, plan.detail, time);
       guidance_.state = Guidance::State::no_route;
       break;

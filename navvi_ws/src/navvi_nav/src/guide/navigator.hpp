@@ -112,6 +112,7 @@ class Navigator {
     double stamp = 0.0;                 ///< s, of its message
     bool toward = false;                ///< it is led toward though not seen yet
     std::optional<double> at_end = {};  ///< s, since when the robot is at an end short of it
+    std::optional<double> parted = {};  ///< s, since when the map joins it with the robot no more
     bool elsewhere = false;             ///< the pose is at it, and odometry is not
   };
   struct MapState {

@@ -411,6 +411,23 @@ TEST_F(Lockstep, keeps_a_goal_that_one_map_parts_from_the_robot) {
   EXPECT_EQ(status().state, Guidance::State::following);
 }
 
+TEST_F(Lockstep, refuses_a_goal_that_maps_part_from_the_robot_for_20_s) {
+  SmallWorld parted;
+  parted.room(16, 10).box(6, 0, 0, 9, 10, 1.0);
+  for (const int maps : {1, 5}) {  // of a mapper that sends changes alone, or goes on
+    lead({14, 5});
+    ASSERT_EQ(status().state, Guidance::State::following) << maps;
+    for (int map = 0; map < maps; ++map) {
+      navigator_.set_map(message_of(parted));
+      tick(390 / maps);
+      EXPECT_EQ(status().state, Guidance::State::no_route) << maps << " " << map;
+    }
+    tick(70);
+    EXPECT_EQ(status().state, Guidance::State::goal_refused) << maps;
+    EXPECT_EQ(status().refusal, Guidance::Refusal::unreachable) << maps;
+  }
+}
+
 TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   load();
   navigator_.set_goal({14, 5});

@@ -17,7 +17,7 @@ struct Guidance {
     following,     ///< what follows `goal` is valid
     arrived,       ///< until the next goal
     goal_refused,  ///< see refusal
-    no_route,      ///< by the map nothing joins the robot and the goal, which stays
+    no_route,      ///< by the map nothing joins the robot and the goal, which stays for now
     off_mesh,      ///< the robot stands where by the map no path can begin
     no_map,        ///< no usable map yet
     pose_stale,    ///< no fresh pose of the robot
