@@ -45,8 +45,8 @@ class PerceptionNodeTest : public testing::Test {
     bumper_ = node_.advertise<std_msgs::Bool>("bumper", 5);
     subscribers_ = {take<octomap_msgs::Octomap>("octomap_binary", map_),
                     take<navvi_msgs::Obstacles>("navvi/obstacles", obstacles_),
-                    take<navvi_msgs::Proximity>("navvi/proximity", near_),
-                    take<navvi_msgs::Contact>("navvi/contacts", contact_)};
+                    take<navvi_msgs::Proximity>("navvi/proximity", near_)};
+    contacts_ = take<navvi_msgs::Contact>("navvi/contacts", contact_);
     subscribers_.push_back(node_.subscribe<diagnostic_msgs::DiagnosticArray>(
         "diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArray::ConstPtr& msg) {
           sensing_ = msg->status.front().message;
@@ -146,6 +146,13 @@ class PerceptionNodeTest : public testing::Test {
     rear_scans_.publish(rear);
   }
 
+  /// The node senses, and hears the bumper, and its contacts are heard.
+  bool ready() {
+    return until([this] {
+      return near_ && bumper_.getNumSubscribers() > 0 && contacts_.getNumPublishers() > 0;
+    });
+  }
+
   /// Lets go of the bumper and presses it. \return its contact
   std::optional<navvi_msgs::Contact> bump() {
     contact_.reset();
@@ -178,6 +185,7 @@ class PerceptionNodeTest : public testing::Test {
   ros::NodeHandle node_;
   ros::Publisher clock_, scans_, rear_scans_, clouds_, bumper_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber contacts_;
   ros::WallTimer timer_, clock_timer_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::optional<double> disc_y_;  ///< m, in laser
@@ -219,7 +227,7 @@ TEST_F(PerceptionNodeTest, T1_what_is_near_and_what_moves_is_known_within_1_s_of
 }
 
 TEST_F(PerceptionNodeTest, T1_contacts_are_counted_on_where_time_jumps_back) {
-  ASSERT_TRUE(until([this] { return near_ && bumper_.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(ready());
   const auto before = bump();
   ASSERT_TRUE(before);
   set_back(2.0);
@@ -310,7 +318,7 @@ TEST_F(PerceptionNodeTest, tells_nothing_of_scans_that_cannot_be_used_and_goes_o
 }
 
 TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_is_one_contact_ahead) {
-  ASSERT_TRUE(until([this] { return near_.has_value() && bumper_.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(ready());
   for (const std::uint32_t count : {1U, 2U}) {
     const auto contact = bump();
     ASSERT_TRUE(contact);
@@ -321,7 +329,7 @@ TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_is_one_contact_ahead) {
 }
 
 TEST_F(PerceptionNodeTest, a_bumper_that_is_pressed_where_the_robot_is_lost_is_a_contact) {
-  ASSERT_TRUE(until([this] { return near_.has_value() && bumper_.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(ready());
   lost_ = true;
   frame("map", "base_link", 14.0, 0.0, 1.0);  // from the future, so that no place is known
   near_.reset();
@@ -445,13 +453,16 @@ TEST_F(TwoLidarsTest, H2_loses_sensing_where_one_of_its_sensors_falls_silent) {
   EXPECT_TRUE(until([this] { return near_.has_value(); }));
 }
 
-TEST_F(TwoLidarsTest, warns_of_a_bumper_that_nothing_publishes) {
+TEST_F(TwoLidarsTest, warns_of_a_bumper_that_nothing_publishes_and_tells_of_no_contacts) {
   bool warned = false;
   const ros::Subscriber log = node_.subscribe<rosgraph_msgs::Log>(
       "/rosout", 100, [&](const rosgraph_msgs::Log::ConstPtr& msg) {
         warned = warned || msg->msg.find("Nothing publishes the bumper, no/such") == 0;
       });
   EXPECT_TRUE(until([&] { return warned; }));
+  EXPECT_EQ(contacts_.getNumPublishers(), 0U) << "by which others would know that they are counted";
+  const ros::Publisher late = node_.advertise<std_msgs::Bool>("no/such", 5);
+  EXPECT_TRUE(until([this] { return contacts_.getNumPublishers() > 0; }));
 }
 
 TEST_F(PerceptionNodeTest, T1_a_sensor_that_is_silent_is_missed_when_time_has_jumped_back_too) {

@@ -84,10 +84,8 @@ class PerceptionNode {
           config.map_frame, [this](const std::string& why) { count("map", why); }));
     else
       know(config.core.prior_of(config.prior));
-    if (!config.bumper.empty()) {
-      contacts_ = node.advertise<navvi_msgs::Contact>("navvi/contacts", 100);
+    if (!config.bumper.empty())
       bumper_ = node.subscribe(config.bumper, 10, &PerceptionNode::on_bumper, this);
-    }
     timer_ = node.createWallTimer(ros::WallDuration(1.0 / kRate),
                                   [this](const ros::WallTimerEvent&) { tell_what_is_near(); });
     report_timer_ = node.createWallTimer(ros::WallDuration(kReport),
@@ -335,7 +333,14 @@ class PerceptionNode {
            silent(now) == nullptr;
   }
 
+  /// Only where something publishes the bumper: else contacts are unknown, and not none.
+  void tell_of_contacts(bool bumper) {
+    if (bumper && !contacts_)
+      contacts_ = ros::NodeHandle().advertise<navvi_msgs::Contact>("navvi/contacts", 100);
+  }
+
   void tell_what_is_near() {
+    tell_of_contacts(bumper_.getNumPublishers() > 0);
     serve();  // what waited in vain
     if (!sees(ros::Time::now())) return;
     const auto robot = robot_now();
@@ -355,11 +360,10 @@ class PerceptionNode {
       why = one->topic + ": " + (one->refused.empty() ? "no message came" : one->refused);
     if (seen && std::exchange(lost_, false)) ROS_INFO("Obstacles are sensed again.");
     reports_ = seen ? kBegins : std::min(reports_ + 1, kBegins);
-    const bool begins = reports_ < kBegins;
-    if (!seen && !begins && !std::exchange(lost_, true))
+    if (!seen && reports_ == kBegins && !std::exchange(lost_, true))
       ROS_WARN("Obstacles are not sensed: no scan or cloud of late can be used (%s).", why.c_str());
     if (bumper_ && bumper_.getNumPublishers() == 0)
-      ROS_WARN_DELAYED_THROTTLE(10.0, "Nothing publishes the bumper, %s: no contact is counted.",
+      ROS_WARN_DELAYED_THROTTLE(10.0, "Nothing publishes the bumper, %s: contacts are unknown.",
                                 config_.bumper.c_str());
     diagnostic_msgs::DiagnosticArray array;
     array.header.stamp = now;
@@ -370,15 +374,15 @@ class PerceptionNode {
                                                     : DiagnosticStatus::OK;
     status.message = seen ? "Obstacles are sensed." : "Obstacles are not sensed: " + why + ".";
     for (const auto& [key, kind] : refusals_.kinds()) {
-      diagnostic_msgs::KeyValue pair;
+      diagnostic_msgs::KeyValue& pair = status.values.emplace_back();
       pair.key = kind.first;
       pair.value = std::to_string(kind.count) + " dropped";
-      status.values.push_back(pair);
     }
     diagnostics_.publish(array);
   }
 
   void on_bumper(const std_msgs::Bool& bumper) {
+    tell_of_contacts(true);
     (void)robot_now();  // where it was last, if it is not known now
     if (bumper.data && !robot_) return;
     if (std::exchange(touches_, bumper.data) || !bumper.data) return;
