@@ -51,7 +51,7 @@ def sentence(row):
     if row["result"] != "reached":
         return f"The goal was not reached: {row['result']}, {row['reason'].replace('_', ' ')}."
     if row["shelf_collision_count"] == "unknown":
-        return f"The goal was reached in {row['elapsed_s']} s; contacts are unknown, as the robot has no bumper."
+        return f"The goal was reached in {row['elapsed_s']} s; contacts are unknown, as nothing told of them."
     shelves = row["shelf_collision_count"]
     return (f"The goal was reached in {row['elapsed_s']} s, with {shelves} collision{'s' * (shelves != '1')} with shelves "
             f"and {row['obstacle_collision_count']} with obstacles.")

@@ -507,7 +507,7 @@ def trial(tmp_path):
 
 @pytest.mark.parametrize("more, code, last", [
     ({}, 0, "The goal was reached in 28.550 s, with 1 collision with shelves and 0 with obstacles."),
-    ({"shelf_collision_count": "unknown"}, 0, "The goal was reached in 28.550 s; contacts are unknown, as the robot has no bumper."),
+    ({"shelf_collision_count": "unknown"}, 0, "The goal was reached in 28.550 s; contacts are unknown, as nothing told of them."),
     ({"result": "aborted", "reason": "stopped_by_signal", "bag": "missing"}, 1, "The goal was not reached: aborted, stopped by signal."),
 ])
 def test_a_session_ends_in_at_most_eight_lines_with_its_result_last(trial, more, code, last, capsys):

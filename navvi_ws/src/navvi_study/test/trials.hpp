@@ -49,6 +49,7 @@ class Trials : public testing::Test {
     };
     outlets.tell = [this](TrialKeeper::Tone, const std::string& words) { said_ += words + "\n"; };
     outlets.settings = [this] { return settings_; };
+    outlets.hears_contacts = [this] { return contacts_; };
     outlets.start_recorder = [this](const fs::path& bag) {
       const fs::path program = folder_.write("record", "#!/bin/sh\nexec sleep 60\n");
       fs::permissions(program, fs::perms::owner_all);
@@ -158,6 +159,7 @@ class Trials : public testing::Test {
   std::string said_;
   std::vector<TrialState::State> shown_;
   TrialState waits_;  ///< shown last
+  bool contacts_ = true;    ///< something tells of them
   bool feedback_ = true;    ///< feedback_node reports
   bool elsewhere_ = false;  ///< the robot, where the guide says that it has arrived
   int failures_ = 0;        ///< writes of the journal that are still to fail

@@ -171,6 +171,7 @@ class TrialNode {
       show();
     };
     out.settings = settings_of_nodes;
+    out.hears_contacts = [this] { return contacts_.getNumPublishers() > 0; };
     out.phrases = [] { return ros::param::param<std::string>("navvi/phrases", ""); };
     out.start_recorder = [this](const std::filesystem::path& bag) {
       std::vector<std::string> topics;
@@ -199,6 +200,7 @@ class TrialNode {
   void subscribe(const std::string& odom_frame) {
     take<nav_msgs::Odometry>("odom");
     take<navvi_msgs::Contact>("navvi/contacts");
+    contacts_ = subscribers_.back();
     take<navvi_msgs::Proximity>("navvi/proximity");
     take<navvi_msgs::Cue>("navvi/cues");
     take<navvi_msgs::DriveState>("navvi/drive_state");
@@ -263,6 +265,7 @@ class TrialNode {
   SessionParts parts_;
   trial::TrialKeeper keeper_;
   std::vector<ros::Subscriber> subscribers_;
+  ros::Subscriber contacts_;  ///< one of these
   ros::WallTimer timer_, beat_;
   std::optional<TrialState> shown_;
 };

@@ -287,7 +287,9 @@ void TrialKeeper::start(const ChosenGoal& chosen) {
 record::Fields TrialKeeper::conditions(const TrialStart& beginning) {
   record::Fields fields = monitor_.place();
   kept_.settings = outlets_.settings();
-  add_conditions(fields, config_, offered_.scenario, kept_.settings, beginning,
+  TrialNodeConfig config = config_;
+  if (!outlets_.hears_contacts()) config.contacts = "unknown";
+  add_conditions(fields, config, offered_.scenario, kept_.settings, beginning,
                  listener_ ? outlets_.phrases().filename().string() : "");
   fields.set("audio", readiness_.state_of("audio"));
   fields.set("pad", simulated() ? "simulated" : readiness_.state_of("pad"));

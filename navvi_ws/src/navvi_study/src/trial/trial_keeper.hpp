@@ -52,6 +52,7 @@ class TrialKeeper {
     std::function<void(Tone, const std::string&)> tell;                      ///< for the screen
     std::function<void(const TrialState&)> show = [](const TrialState&) {};  ///< on each change
     std::function<Settings()> settings = [] { return Settings(); };
+    std::function<bool()> hears_contacts = [] { return true; };  ///< something tells of them
     /// File of what is spoken; empty where it is not known.
     std::function<std::filesystem::path()> phrases = [] { return std::filesystem::path(); };
     /// Begins a bag at that path; nullptr where none is wanted.

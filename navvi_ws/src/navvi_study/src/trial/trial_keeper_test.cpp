@@ -39,6 +39,7 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   EXPECT_EQ(events_[1], "GOAL_SET");
   EXPECT_TRUE(holds("journal.csv", "world=hall"));
   EXPECT_TRUE(holds("journal.csv", ";contact_seq=0;")) << "of a world of its own";
+  EXPECT_TRUE(holds("journal.csv", ";contacts=counted;"));
   live(1.0, State::following, kScenario.goal);
   EXPECT_FALSE(happened("TRIAL_END"));
   live(0.1, State::arrived, kScenario.goal);
@@ -48,6 +49,13 @@ TEST_F(Trials, set_the_goal_of_the_scenario_and_end_when_it_is_reached) {
   EXPECT_EQ(events_.back(), "BAG_CLOSED");
   EXPECT_TRUE(holds("summary.csv", "reached"));
   EXPECT_TRUE(said("result: reached"));
+}
+
+TEST_F(Trials, call_contacts_unknown_where_nothing_tells_of_them) {
+  contacts_ = false;
+  offer();
+  live(1.0);
+  EXPECT_TRUE(holds("journal.csv", ";contacts=unknown;")) << "whatever the parameter says";
 }
 
 TEST_F(Trials, leave_a_track_that_grows_while_they_run_and_figures_of_it) {
