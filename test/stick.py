@@ -27,8 +27,8 @@ garbage  sends what is no message to each port of each node, with the stick push
 lose   LETTER PAD: as kill, by the pad in memory at the socket PAD; then it is lost as the letter says (virtual_pad.cpp), its stick held. Prints
        the time in s until the wheels were commanded to zero, and until the robot stood still.
 churn  TIMES PAD: by the pad in memory, drives and at a random moment unplugs it and plugs it in again, or each fifth time kills feedback_node, the
-       stick held all the time. Prints how often it drove, how often feedback_node ended by itself, and the fastest speed of a stick that was not
-       neutral since.
+       stick held all the time, then for 2 s of the next one. Prints how often it drove, how often feedback_node ended by itself, and the fastest
+       speed of a stick that was not neutral since.
 """
 import os
 import pathlib
@@ -115,20 +115,25 @@ class Stick:
 
     def churn(self):
         draw, begin, drove, ended, moved = random.Random(1), self.place, 0, 0, 0.0
+        commands = self.times("/navvi/command", TwistStamped)
         for count in range(1, int(sys.argv[2]) + 1):
             forward = 1.0 if self.place < begin + 1.5 else -1.0
             drove += self.push(0.1, forward)
             pid = self.pid("/feedback_node")
             self.hold(forward, lambda: False, draw.uniform(0.0, 0.5))
-            if count % 5 == 0:
+            killed = count % 5 == 0
+            if killed:
                 os.kill(pid, signal.SIGKILL)
             else:
                 self.to_pad(b"u")
                 self.hold(forward, lambda: False, draw.uniform(0.0, 0.3))
                 self.to_pad(b"p")
             self.hold(forward, lambda: False, 1.0)  # until it stands
-            moved = max(moved, self.fastest(forward, draw.uniform(0.2, 1.5)))
-            ended += count % 5 > 0 and self.pid("/feedback_node") != pid
+            commands.clear()
+            if killed:  # until the next guide commands
+                self.hold(forward, lambda: commands, 20.0)
+            moved = max(moved, self.fastest(forward, 2.0 if killed else draw.uniform(0.2, 1.5)))
+            ended += not killed and self.pid("/feedback_node") != pid
         return drove, ended, moved
 
     def command(self, **twist):
