@@ -33,7 +33,7 @@ BEGUN = re.compile(r": Trial (trial-\S+) has begun:")
 CRASH = re.compile(r"^process has died|.*so the session ends\.|^RLException")
 # roslaunch would end all at once with a simulator that is required. A person's is not: they first hear that it is lost.
 SIMULATOR_LOST = re.compile(r"^\[sim_node-\d+\] process has ")
-LAST_WORDS = 4  # s, for that
+LAST_WORDS = 6  # s, for that; before them trial_node ends a trial by its own rule
 
 
 def has_display():
@@ -173,7 +173,7 @@ class Launch:
             line = CONTROLS.sub("", line.decode(errors="replace"))
             self.log.take(line)
             if SIMULATOR_LOST.match(line) and not self.log.stopping:
-                write(f"the simulator has ended, and the session ends in {LAST_WORDS} s; the same command starts another.")
+                write(f"the simulator has ended, and the session ends in {LAST_WORDS} s.")
                 self.log.crashed = True
                 signal.alarm(LAST_WORDS)
         status = self.process.wait()

@@ -387,7 +387,9 @@ def test_what_nodes_log_lies_beside_the_sessions_log(tmp_path, monkeypatch):
 
 
 def test_S1_a_persons_session_ends_some_seconds_after_its_simulator_and_says_so(tmp_path, monkeypatch, capfd):
-    """In which the guide says that it is lost; nothing would start it anew."""
+    """In which the guide says that it is lost, and trial_node ends the trial by its own rule; nothing would start it anew."""
+    rules = (ROOT / "navvi_ws/src/navvi_study/src/trial/trial_flow.cpp").read_text()
+    assert session.LAST_WORDS > float(re.search(r"kSimulatorLost = ([\d.]+);", rules)[1])
     (tmp_path / "roslaunch").write_text("#!/usr/bin/python3\nimport signal, sys, time\nsignal.signal(signal.SIGINT, lambda *_: sys.exit(0))\n"
                                         "print('[sim_node-2] process has died [pid 7, exit code -9, cmd x].', flush=True)\ntime.sleep(60)\n")
     (tmp_path / "roslaunch").chmod(0o755)
@@ -398,7 +400,7 @@ def test_S1_a_persons_session_ends_some_seconds_after_its_simulator_and_says_so(
     assert not launch.run() and not launch.interrupted, "a crash, and no stop by hand"
     assert 0.9 < time.monotonic() - begin < 30.0
     assert capfd.readouterr().out == ("navvi: warning: sim_node has ended with exit code -9.\n"
-                                      "navvi: the simulator has ended, and the session ends in 1 s; the same command starts another.\n")
+                                      "navvi: the simulator has ended, and the session ends in 1 s.\n")
 
 
 def lesson_of(monkeypatch, launch, logged=""):
