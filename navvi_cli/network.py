@@ -8,6 +8,7 @@ import atexit
 import fcntl
 import os
 import re
+import shlex
 import socket
 import subprocess
 import urllib.parse
@@ -123,7 +124,7 @@ class Network:
     def second_terminal(self):
         setup = DEVEL / "setup.bash"
         near = os.path.relpath(setup) if Path.cwd() in setup.parents else setup
-        return f"{f'source {near}; ' if setup.exists() else ''}export ROS_MASTER_URI={self.uri} ROS_IP={self.address}"
+        return f"{f'source {shlex.quote(str(near))}; ' if setup.exists() else ''}export ROS_MASTER_URI={self.uri} ROS_IP={self.address}"
 
 
 class FarNetwork(Network):

@@ -369,6 +369,16 @@ def test_a_master_of_the_environment_that_is_not_used_is_named(locks, monkeypatc
         assert (f"ROS_MASTER_URI={given} is not used" in capsys.readouterr().err) == said
 
 
+@pytest.mark.parametrize("near", [True, False])
+def test_the_line_for_a_second_terminal_leads_to_a_folder_with_a_blank(near, tmp_path, monkeypatch):
+    (tmp_path / "a b").mkdir()
+    (tmp_path / "a b/setup.bash").write_text("export SOURCED=yes\n")
+    monkeypatch.setattr(network, "DEVEL", tmp_path / "a b")
+    monkeypatch.chdir(tmp_path if near else "/")
+    line = network.Network.second_terminal(types.SimpleNamespace(uri="http://127.0.0.1:11311", address="127.0.0.1"))
+    assert subprocess.check_output(["bash", "-c", f"{line}; echo $SOURCED $ROS_IP"], text=True) == "yes 127.0.0.1\n"
+
+
 def test_what_ended_a_session_is_remembered(tmp_path):
     log = session.Log(tmp_path / "log")
     for line in "[FATAL] [1.0]: there is no map", "[ INFO] [2.0]: bye":
