@@ -130,19 +130,19 @@ TEST_F(SidesTest, are_not_asked_for_where_they_are_known_or_nothing_sounds) {
   GuideConfig known;
   known->sounds.sides = "usb_headphones";
   guide_.use(known);
-  wait(3.0);
+  wait(1.0);
   guide_.use({});
   input_.sounds = false;
-  wait(3.0);
+  wait(1.0);
   input_.sounds = true;
   input_.ears.clear();  // a simulated person
-  wait(3.0);
+  wait(1.0);
   input_.ears = "usb_headphones";
   for (const char* lead : {"hand", "words"}) {
     GuideConfig no_sound_leads;
     no_sound_leads->lead = lead;
     guide_.use(no_sound_leads);
-    wait(3.0);
+    wait(1.0);
   }
   EXPECT_FALSE(said(CueKind::which_side));
   guide_.use({});
