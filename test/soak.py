@@ -32,7 +32,7 @@ from navvi_msgs.msg import DriveState, Guidance, Obstacles, Scenario, StateHash,
 import sessions
 from sessions import DARK, ROOT, Programs, Session, eventually, rows_of, sound, sourced
 
-RUNS = {"K1": ("world:=busy", "sim/rate:=10"), "K2": ("world:=busy",), "K6": ("world:=busy",),
+RUNS = {"K1": ("world:=busy", "sim/rate:=10", "operator/rate:=200"), "K2": ("world:=busy",), "K6": ("world:=busy",),
         "K5": ("world:=easy", "trial/record:=none", "nav/replan/only_if_it_matters:=false"), "K7": ("world:=training", "sim/rate:=0.2")}
 PACE = {"K1": 9.5, "K5": 1.0}  # times real time, at least, on the mean
 VALGRIND = "valgrind --leak-check=full --errors-for-leak-kinds=definite --log-file={}/%p.valgrind"

@@ -37,8 +37,8 @@ def test_a_pad_that_is_lost_at_full_speed_stops_the_robot(master, tmp_path, plug
     within(record_property, "still", still, bound + 0.25)
 
 
-def test_K4_pads_that_come_and_go_and_guides_that_are_killed_move_nothing_without_neutral(master, tmp_path, plugged):
-    """The soak has 2500 rounds, a fifth of them kills: in some 3 hours."""
+def test_J3_pads_that_come_and_go_and_guides_that_are_killed_move_nothing_without_neutral(master, tmp_path, plugged):
+    """The soak K4 has 2500 rounds, a fifth of them kills: in some 3 hours."""
     rounds = int(os.environ.get("NAVVI_CHURN", 10))
     with by_pad(master, tmp_path, plugged, "trial_parameters:={press_to_start: false}") as programs:
         told = programs.person("stick.py", "churn", rounds, plugged["VIRTUAL_PAD"], seconds=120 + 60 * rounds)

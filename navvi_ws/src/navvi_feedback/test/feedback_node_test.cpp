@@ -230,6 +230,9 @@ TEST_F(FeedbackNode, C8_says_that_the_emergency_stop_is_pressed_and_that_the_bat
   battery.percentage = 0.14F;
   batteries.publish(battery);
   EXPECT_TRUE(until([this] { return heard("battery_low"); }));
+  pressed.data = 0;
+  stops.publish(pressed);
+  pass(0.2);
 }
 
 TEST_F(FeedbackNode, P3_obeys_no_parameter_that_is_set_while_it_runs) {
