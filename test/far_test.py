@@ -103,6 +103,8 @@ class RobotOfItsOwn(Session):
         self.start(self.wire.robot, "/usr/bin/python3", str(ROOT / "test/wheels.py"))
         self.start(self.wire.robot, "roslaunch", str(ROOT / "launch/robot_side.launch"), "far:=true", "sensors:=false", "odom:=/robot/odom",
                    "wheels:=/robot/cmd_vel", output=self.folder / "robot.txt")
+        # Of two roslaunch without it, the later one ends.
+        assert eventually(lambda: self.asks("rosparam", "get", "/run_id"), 60)
 
 
 @pytest.fixture
