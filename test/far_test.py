@@ -132,13 +132,13 @@ def test_a_simulated_person_reaches_the_goal_of_a_robot_on_another_machine(sessi
 def test_a_simulated_person_reaches_the_goal_of_a_real_robots_side_on_another_machine(tmp_path):
     with contextlib.closing(RobotOfItsOwn(tmp_path)) as session:
         session.wire.delay = 0.02
-        person = session.start(session.wire.person, "roslaunch", str(ROOT / "launch/person.launch"), "clock:=/navvi/clock", "odom:=/robot/odom",
+        person = session.start(session.wire.person, "roslaunch", str(ROOT / "launch/person.launch"), "clock:=/clock", "odom:=/robot/odom",
                                "operator:=simulated", "speech:=auto", "rviz:=false", "limit:=120", "patience:=300", f"out:={tmp_path}",
                                "trial_parameters:={record: robot}", output=tmp_path / "person.txt")
         code = person.wait(400)
         assert code == 0 and [*tmp_path.glob("trial-*/summary.csv")], (tmp_path / "person.txt").read_text()[-3000:]
     result = summary(tmp_path)
-    assert (result["result"], result["bag"], result["shelf_collision_count"]) == ("reached", "ok", "unknown"), result
+    assert (result["result"], result["bag"]) == ("reached", "ok"), result
     assert 0.04 <= float(result["round_trip"]) < 0.34
 
 
