@@ -88,6 +88,12 @@ navvi_types::LinkState CommandGate::link_state(std::int64_t stamp) const {
   return state;
 }
 
+bool CommandGate::outrun(const Instant& now) const {
+  return state_ == State::running && last_valid_ &&
+         now.wall - last_valid_->wall <= config_.timeout &&
+         now.sim - last_valid_->sim > config_.timeout / 2;
+}
+
 void CommandGate::stop(Reason reason) {
   last_valid_.reset();
   if (state_ == State::waiting && reason != Reason::emergency_stop) return;

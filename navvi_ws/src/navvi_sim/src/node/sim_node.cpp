@@ -104,6 +104,7 @@ class SimNode {
       // Commands that came while this process was held up count before their age does. The first of
       // them finds the gate stopped if they came too late.
       commands_queue_.callAvailable();
+      if (config_.rate > 1.0 && gate_.outrun(instant())) return;
       if (!step()) return;
     }
     if (due == kMostSteps && dropped > 0)
