@@ -61,8 +61,7 @@ class Lockstep : public testing::Test {
   std::optional<plan::PlanRequest> ask() {
     time_ += kTick;
     if (has_pose_)
-      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_,
-                          time_);
+      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, height_, time_);
     if (has_odometry_) navigator_.set_velocity({speed_, 0.0});
     if (has_obstacles_) {
       std::vector<MovingThing> things = things_;

@@ -58,11 +58,10 @@ class Navigator {
   void reject_obstacles() { observation_.reject_obstacles(); }
   /// \param height  m, z of base_link, which is on the floor. An OctoMap is taken only when it is
   ///                known: the first one tells which of its levels is the floor.
-  /// \return false for a pose from the future, which is not taken
-  bool set_pose(const Pose2& pose, double height, double stamp, double now) {
-    if (!observation_.set_pose(pose, stamp, now)) return false;
+  /// \param stamp   s, of the pose
+  void set_pose(const Pose2& pose, double height, double stamp) {
+    observation_.set_pose(pose, stamp);
     height_ = height;
-    return true;
   }
   void set_velocity(const navvi_types::Velocity& velocity) { observation_.set_velocity(velocity); }
   /// \param ahead  s, by which guidance is ahead of the robot

@@ -531,7 +531,7 @@ class Guided : public Lockstep {
     const double end = time_ + seconds - 1e-9;
     while (time_ < end) {
       time_ += kTick;
-      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_, time_);
+      navigator_.set_pose({{robot_.position.x, robot_.position.y}, robot_.yaw}, 0.0, time_);
       std::vector<MovingThing> things = things_;
       for (const Cylinder& obstacle : obstacles_) things.push_back(moving_thing(obstacle));
       if (has_obstacles_) navigator_.set_obstacles(things, time_);

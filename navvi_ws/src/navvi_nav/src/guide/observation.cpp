@@ -36,11 +36,9 @@ void Observation::set_obstacles(std::vector<MovingThing> things, double time) {
   obstacles_rejected_ = false;
 }
 
-bool Observation::set_pose(const Pose2& pose, double stamp, double now) {
-  if (stamp - now > config_.kMostAhead) return false;
+void Observation::set_pose(const Pose2& pose, double stamp) {
   pose_ = pose;
   pose_time_ = stamp;
-  return true;
 }
 
 std::optional<Pose2> Observation::foreseen() const {

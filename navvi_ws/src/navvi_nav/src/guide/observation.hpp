@@ -27,9 +27,7 @@ class Observation {
   void set_obstacles(std::vector<MovingThing> things, double time);
   void reject_obstacles() { obstacles_rejected_ = true; }
   /// \param stamp  of the pose
-  /// \return false for a pose from the future, which is not taken: by a clock that is ahead it
-  /// looks fresh for as long as that clock is ahead
-  bool set_pose(const Pose2& pose, double stamp, double now);
+  void set_pose(const Pose2& pose, double stamp);
   /// By odometry.
   void set_velocity(const navvi_types::Velocity& velocity) {
     velocity_ = velocity;

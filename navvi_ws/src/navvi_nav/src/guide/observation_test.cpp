@@ -51,7 +51,7 @@ TEST(Observation, drops_obstacles_that_are_too_old) {
 TEST(Observation, T1_gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps) {
   Observation observation{ObservationConfig{}};
   EXPECT_FALSE(observation.pose(0.0));
-  observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0);
+  observation.set_pose({{1, 2}, 0.0}, 10.0);
   EXPECT_TRUE(observation.pose(11.0));
   EXPECT_FALSE(observation.pose(11.1));
   EXPECT_TRUE(observation.last_pose());
@@ -63,27 +63,13 @@ TEST(Observation, T1_gives_no_pose_that_is_stale_and_forgets_all_when_time_jumps
 TEST(Observation, foresees_no_motion_by_a_velocity_that_is_older_than_1_s) {
   Observation observation{ObservationConfig{}};
   observation.set_foresight(2.0);
-  observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0);
+  observation.set_pose({{1, 2}, 0.0}, 10.0);
   observation.set_velocity({0.5, 0.0});
   observation.update(10.0);
   observation.update(11.0);
   EXPECT_EQ(observation.foreseen()->position.x(), 2.0);
   observation.update(11.1);
   EXPECT_EQ(observation.foreseen()->position.x(), 1.0);
-}
-
-TEST(Observation, T4_a_pose_from_the_future_is_no_pose) {
-  Observation observation{ObservationConfig{}};
-  EXPECT_TRUE(observation.set_pose({{1, 2}, 0.0}, 10.0, 10.0));
-  EXPECT_TRUE(observation.set_pose({{1, 2}, 0.0}, 10.35, 10.1)) << "clocks differ by a little";
-  EXPECT_FALSE(observation.set_pose({{9, 9}, 0.0}, 10.6, 10.2));
-  EXPECT_FALSE(observation.set_pose({{9, 9}, 0.0}, 1e6, 10.2));
-  ASSERT_TRUE(observation.pose(11.0));
-  EXPECT_EQ(observation.pose(11.0)->position.x(), 1.0) << "the last true one, while it is fresh";
-  EXPECT_FALSE(observation.pose(11.4));
-  EXPECT_EQ(observation.last_pose()->position.x(), 1.0);
-  EXPECT_TRUE(observation.set_pose({{3, 2}, 0.0}, 11.5, 11.5));
-  EXPECT_EQ(observation.pose(11.5)->position.x(), 3.0);
 }
 
 }  // namespace

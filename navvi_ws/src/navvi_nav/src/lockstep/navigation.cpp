@@ -57,7 +57,7 @@ void Navigation::set_obstacles(const navvi_types::Obstacles& obstacles, double t
 }
 
 void Navigation::set_pose(const navvi_types::Pose2& pose, double height, double time) {
-  parts_->navigator.set_pose(pose, height, time, time);
+  parts_->navigator.set_pose(pose, height, time);
 }
 
 void Navigation::set_velocity(const navvi_types::Velocity& velocity) {

@@ -237,9 +237,9 @@ class NavNode {
   void read_pose(const ros::Time& now) {
     const auto found = navvi_types::newest(buffer_, config_.map_frame, config_.base_frame, now);
     const auto pose = found ? navvi_types::from_msg(found->transform) : std::nullopt;
-    const double stamp = found ? found->header.stamp.toSec() : 0.0;
-    if (pose && navigator_.set_pose(*pose, found->transform.translation.z, stamp, now.toSec()))
-      posed_ = stamp;
+    if (!pose) return;
+    posed_ = found->header.stamp.toSec();
+    navigator_.set_pose(*pose, found->transform.translation.z, posed_);
   }
 
   void on_odometry(const nav_msgs::Odometry& msg) {
