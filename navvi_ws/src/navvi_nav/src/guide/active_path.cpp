@@ -66,8 +66,7 @@ void ActivePath::reset() {
 double ActivePath::offset(Point robot) const { return following() ? follower_.offset(robot) : 0.0; }
 
 bool ActivePath::arrived(Point robot, const map::Space& space) const {
-  return (mode_ == PathMode::to_goal || mode_ == PathMode::closed) &&
-         follower_.arrived(robot, space);
+  return leads_to_goal_ && mode_ != PathMode::waiting && follower_.arrived(robot, space);
 }
 
 void ActivePath::report(Guidance& out, const Pose2& robot, const map::Floor& floor,

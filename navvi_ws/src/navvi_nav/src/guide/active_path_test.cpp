@@ -80,8 +80,10 @@ TEST_F(Following, arrives_at_the_goal_and_not_at_the_end_of_a_retreat) {
     follow(status, straight_);
     EXPECT_EQ(path_.arrived(robot_, mesh.space()), status != plan::PlanStatus::retreat);
   }
-  path_.set_mode(PathMode::waiting);
-  EXPECT_FALSE(path_.arrived(robot_, mesh.space()));
+  for (const PathMode mode : {PathMode::waiting, PathMode::closed}) {
+    path_.set_mode(mode);
+    EXPECT_FALSE(path_.arrived(robot_, mesh.space()));
+  }
   follow(plan::PlanStatus::found, straight_);
   path_.drop();
   EXPECT_FALSE(path_.following());
