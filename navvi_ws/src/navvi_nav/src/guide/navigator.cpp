@@ -354,9 +354,11 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
       return;
     case plan::PlanStatus::refused:
       // A goal that was accepted is not refused later on because of where the robot strayed, or of
-      // a map that is soon made good; but one that was not seen may turn out to be none.
+      // a map that is soon made good; but one that is not seen may turn out to be none.
       if (of_map && !goal_.parted) goal_.parted = time;
-      if (reason == Guidance::Replan::new_goal || (of_map && path_.ends_short()) ||
+      if (reason == Guidance::Replan::new_goal ||
+          (of_map && (path_.ends_short() || plan.refusal == Guidance::Refusal::not_seen ||
+                      plan.refusal == Guidance::Refusal::off_the_map)) ||
           (goal_.parted && time - *goal_.parted >= kParted))
         return refuse_place(plan.refusal, plan.detail, time);
       guidance_.state = Guidance::State::no_route;
@@ -377,7 +379,9 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
 bool Navigator::keeps_path(const plan::Plan& plan, Guidance::Replan reason, double time) {
   const std::optional<Point> robot = position_of(observation_.last_pose());
   if (!path_.following() || !robot) return false;
-  if (path_.mode() == PathMode::retreat && observation_.obstacles_held() && !cut_off_) return true;
+  if (path_.mode() == PathMode::retreat && observation_.obstacles_held() && !cut_off_ &&
+      reason != Guidance::Replan::map_changed)
+    return true;
   const std::vector<Cylinder> none;
   const Path remaining = path_.remaining(*robot);
   PathKeeper::Choice choice;

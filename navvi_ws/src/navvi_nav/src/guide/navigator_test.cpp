@@ -428,6 +428,15 @@ TEST_F(Lockstep, refuses_a_goal_that_maps_part_from_the_robot_for_20_s) {
   }
 }
 
+TEST_F(Lockstep, refuses_a_goal_at_once_that_a_new_map_does_not_show_any_more) {
+  lead({14, 5});
+  ASSERT_EQ(status().state, Guidance::State::following);
+  SmallWorld shrunk;
+  navigator_.set_map(message_of(shrunk.room(10, 10)));
+  tick(20);
+  EXPECT_EQ(status().state, Guidance::State::goal_refused);
+}
+
 TEST_F(Lockstep, goes_on_asking_for_plans_while_a_map_is_baked) {
   load();
   navigator_.set_goal({14, 5});
@@ -538,6 +547,7 @@ class Guided : public Lockstep {
       const auto request = navigator_.update(time_);
       if (!request) continue;
       plan::PlanAnswer answer;
+      if (request->brings_map()) answer = planner_.answer(*request);
       if (request->goal) {
         swept_area_ = request->swept_area;
         answer.plan = plan::Plan{};
@@ -596,6 +606,26 @@ TEST_F(Guided, makes_room_on_for_20_s_where_obstacles_are_lost) {
   EXPECT_EQ(status().detail, "no fresh obstacles");
   finds(plan::PlanStatus::found, straight_, 3.0);
   EXPECT_EQ(status().state, Guidance::State::following);
+}
+
+TEST_F(Guided, leaves_a_retreat_for_a_new_map_where_obstacles_are_lost) {
+  retreat({{2, 5}, {2, 7}});
+  has_obstacles_ = false;
+  finds(plan::PlanStatus::found, straight_, 5.0);
+  ASSERT_EQ(status().state, Guidance::State::make_room);
+  world_.box(1, 6, 0, 3, 6.3, 1.0);
+  navigator_.set_map(message_of(world_));
+  finds(plan::PlanStatus::found, straight_, 1.0);
+  EXPECT_EQ(navigator_.path(), straight_);
+}
+
+TEST_F(Guided, arrives_nowhere_where_something_hits_the_robot_at_the_end_of_its_retreat) {
+  retreat({{2, 5}, {2, 7}});
+  robot_.position = {2, 6.9};
+  finds(plan::PlanStatus::retreat, {{2, 5}, {2, 7}}, 0.1);
+  obstacles_ = {{9, {1.32, 2.5}, 0.3, {0, 1}}};
+  finds(plan::PlanStatus::retreat, {{2, 5}, {2, 7}}, 0.3);
+  EXPECT_NE(status().state, Guidance::State::arrived);
 }
 
 TEST_F(Guided, leaves_the_end_of_a_retreat_where_something_hits_it) {
