@@ -461,8 +461,10 @@ TEST_F(TwoLidarsTest, warns_of_a_bumper_that_nothing_publishes_and_tells_of_no_c
       });
   EXPECT_TRUE(until([&] { return warned; }));
   EXPECT_EQ(contacts_.getNumPublishers(), 0U) << "by which others would know that they are counted";
-  const ros::Publisher late = node_.advertise<std_msgs::Bool>("no/such", 5);
+  ros::Publisher late = node_.advertise<std_msgs::Bool>("no/such", 5);
   EXPECT_TRUE(until([this] { return contacts_.getNumPublishers() > 0; }));
+  late.shutdown();
+  EXPECT_TRUE(until([this] { return contacts_.getNumPublishers() == 0; }));
 }
 
 TEST_F(PerceptionNodeTest, T1_a_sensor_that_is_silent_is_missed_when_time_has_jumped_back_too) {

@@ -335,7 +335,8 @@ class PerceptionNode {
 
   /// Only where something publishes the bumper: else contacts are unknown, and not none.
   void tell_of_contacts(bool bumper) {
-    if (bumper && !contacts_)
+    if (!bumper) return contacts_.shutdown();
+    if (!contacts_)
       contacts_ = ros::NodeHandle().advertise<navvi_msgs::Contact>("navvi/contacts", 100);
   }
 
