@@ -15,7 +15,8 @@ std::optional<Velocity> Guide::Parts::command(const Devices& devices, double dt,
   const bool enabled = enable < 0 || hands.button(static_cast<std::size_t>(enable));
   const bool held = teacher.teaching() ? teacher.holds() : senses.holds(time);
   // Where the motors led and no longer do, nobody drives on: by what is heard instead only anew.
-  const bool numb = config.lead == "hand" && feels && !devices.felt && !teacher.teaching();
+  const bool by_hand = config.lead == "hand" || (touch.deaf() && !devices.sounds);
+  const bool numb = by_hand && feels && !devices.felt && !teacher.teaching();
   const bool led = devices.sounds && (config.sounds.enabled || (devices.words && devices.voice));
   if (held || !enabled || (numb && (*feels || !led))) drive.disarm();
   if (feels || devices.felt) feels = devices.felt;

@@ -58,7 +58,7 @@ void HapticDisplay::use_pad(const std::string& pad) {
 }
 
 bool HapticDisplay::report(Link audio, bool motors) {
-  deaf_ = config_.instead_of_words && audio != Link::alive;
+  deaf_ = config_.enabled && config_.instead_of_words && audio != Link::alive;
   if (audio == Link::alive) {
     if (std::exchange(alarmed_, false) && playing() == haptics::Pattern::no_sound) patterns_.stop();
     return false;

@@ -227,6 +227,26 @@ TEST_F(Leading, takes_to_the_hand_only_where_no_sound_reaches_anybody) {
   pass(3.0);
   EXPECT_GT(pulses(2.0, 1), 0);
   EXPECT_EQ(pulses(2.0, 0), 0);
+  EXPECT_GT(drive_anew(), 0.5);
+  devices_.felt = false;
+  EXPECT_EQ(pass(0.02).command.value().linear, 0.0);
+  EXPECT_EQ(drive_anew(), 0.0) << "by nothing";
+  devices_.sounds = true;
+  EXPECT_GT(drive_anew(), 0.5) << "by what is heard instead";
+}
+
+TEST_F(Leading, that_never_was_by_the_hand_stops_no_wheels_where_there_is_no_sound_either) {
+  for (const bool felt : {false, true}) {
+    devices_ = {};
+    devices_.audio = Link::never;
+    devices_.sounds = false;
+    devices_.felt = felt;
+    begin(felt ? "ticks, haptics: {enabled: false}" : "ticks");
+    EXPECT_GT(drive_anew(), 0.5);
+    devices_.felt = false;
+    pass(0.02);
+    EXPECT_GT(drive_anew(), 0.5);
+  }
 }
 
 TEST_F(Leading, by_words_goes_on_between_the_sentences_of_help) {
