@@ -89,7 +89,7 @@ void Status::take(const navvi_types::CueEvent& cue, double time) {
   const CueKind kind = *cue.kind();
   // The menu goes on, also where its word comes too late to be spoken.
   if (cue.stage == CueStage::queued && kind == CueKind::menu) menu_ = cue.text;
-  if (cue.stage == CueStage::queued && closes(kind)) menu_.clear();
+  if (cue.stage == CueStage::queued && closes(kind) && cue.word() != "help") menu_.clear();
   // Where nothing can be heard, what would have been is dropped.
   if (cue.stage != CueStage::started && !(silent_ && cue.stage == CueStage::dropped)) return;
   last_ = Said{kind, cue.text, time};

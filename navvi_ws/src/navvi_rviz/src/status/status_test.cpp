@@ -168,6 +168,14 @@ TEST(Status, the_menu_is_shown_while_it_is_open_whatever_else_is_said) {
   status.take(said(CueKind::direction, "turn to 2 o'clock, 5 meters"), 1.0);
   EXPECT_EQ(status.shown(1.0, 0.0).menu, "volume, 50 percent");
   EXPECT_EQ(status.shown(1.0, 0.0).instruction, "turn to 2 o'clock, 5 meters");
+  CueEvent lesson = queued(CueKind::lesson, "space repeats");
+  lesson.what = navvi_types::Spoken(CueKind::lesson, "help");
+  status.take(lesson, 1.0);
+  EXPECT_EQ(status.shown(1.0, 0.0).menu, "volume, 50 percent");
+  lesson.what = navvi_types::Spoken(CueKind::lesson, "glossary_welcome");
+  status.take(lesson, 1.0);
+  EXPECT_EQ(status.shown(1.0, 0.0).menu, "") << "it was chosen";
+  status.take(queued(CueKind::menu, "volume, 50 percent"), 2.0);
   status.take(queued(CueKind::menu_closed, "menu closed"), 2.0);
   EXPECT_EQ(status.shown(2.0, 0.0).menu, "");
   status.take(queued(CueKind::menu, "begin the trial"), 3.0);
