@@ -35,14 +35,14 @@ Utterances HeldStick::update(const Observation& now, bool driven, double time) {
   since_ = since_when(remedy.has_value(), since_, time);
   const bool held = since_ && time - *since_ >= kHold;
   // What is pressed must be released first. The gate names it until the stick has been at rest: to
-  // a held one that may be all that is left of it, unless the gate stayed shut to one at rest.
+  // a held one that may be all that is left of it, unless the gate just stayed shut to one at rest.
   const bool told = names_stop(now.devices.states), named = names_stop(now.notices);
   const bool shut = rested_ && time - *rested_ > kOpens + now.connection.round_trip;
-  rested_ = since_when(driven && named && !told && (shut || !remedy), rested_, time);
-  const bool pressed = told || (named && (shut || !remedy));
-  needed_ = pressed && !now.robotless ? std::optional(CueKind::emergency_stop)
-            : held                    ? remedy
-                                      : std::nullopt;
+  const bool still = named && (!remedy || (shut && time - *since_ <= 3.0 * kRepeat));
+  rested_ = since_when(driven && still && !told, rested_, time);
+  needed_ = (told || still) && !now.robotless ? std::optional(CueKind::emergency_stop)
+            : held                            ? remedy
+                                              : std::nullopt;
   if (!held || (said_ && time - *said_ < kRepeat)) return {};
   said_ = time;
   return {{*needed_}};

@@ -78,6 +78,12 @@ TEST_F(HeldStickTest, C8_knows_a_stop_that_the_gate_alone_names_by_a_stick_that_
   };
   EXPECT_EQ(push_after(1.5), CueKind::release_stick) << "the gate may be about to open";
   EXPECT_EQ(push_after(2.5), CueKind::emergency_stop);
+  EXPECT_EQ(pass(5.0), 2);
+  EXPECT_EQ(held_.needed(), CueKind::release_stick) << "it may have been released meanwhile";
+  now_.commanded.linear = 0.0;
+  pass(0.1);
+  EXPECT_EQ(held_.needed(), CueKind::emergency_stop) << "or the gate would open";
+  EXPECT_EQ(push_after(0.5), CueKind::release_stick) << "it may be about to";
   now_.notices.clear();
   pass(1.0);
   EXPECT_EQ(held_.needed(), CueKind::release_stick) << "the gate is shut by something else";
