@@ -217,8 +217,7 @@ TEST(Help, tells_the_buttons_as_they_are_assigned) {
   EXPECT_EQ(told(config, false),
             (Texts{"the lower button repeats", "the right button tells the goal",
                    "the left button tells what is near", "the top button tells your place",
-                   "the right shoulder button tells the next turn",
-                   "arrow down opens the menu with goals and settings"}));
+                   "the right shoulder button tells the next turn", "arrow down opens the menu"}));
   EXPECT_EQ(told(config, true).at(1), "the letter G tells the goal");
   auto& index = config->buttons.index;
   std::swap(index.at(1), index.at(2));  // goal and around
@@ -228,7 +227,7 @@ TEST(Help, tells_the_buttons_as_they_are_assigned) {
   ASSERT_EQ(moved.size(), 5U);
   EXPECT_EQ(moved[1], "the left button tells the goal");
   EXPECT_EQ(moved[2], "the right button tells what is near");
-  EXPECT_EQ(moved[4], "the left stick button opens the menu with goals and settings");
+  EXPECT_EQ(moved[4], "the left stick button opens the menu");
 }
 
 TEST_F(GuideTest, help_ends_where_another_button_is_pressed) {
