@@ -100,8 +100,8 @@ Output Guide::Parts::update(const Devices& devices, double time) {
   decided.erase(std::remove_if(decided.begin(), decided.end(),
                                [](const cues::Cue& cue) { return cue.felt; }),
                 decided.end());
-  out.answers =
-      std::any_of(decided.begin(), decided.end(), [](const cues::Cue& cue) { return cue.asked; });
+  const auto answers = [](const cues::Cue& cue) { return cue.asked; };
+  out.answers = !now.pressed.empty() && std::any_of(decided.begin(), decided.end(), answers);
   const AuditoryDisplay::Steering led = steering(now, dt);
   for (const sounds::Play& play : sounds.update(decided, now, led, teacher.taught(), time))
     out.plays.push_back(play);

@@ -230,6 +230,19 @@ TEST(Help, tells_the_buttons_as_they_are_assigned) {
   EXPECT_EQ(moved[4], "the left stick button opens the menu");
 }
 
+TEST_F(GuideTest, help_answers_a_button_by_its_first_sentence_alone) {
+  std::vector<bool> answers;
+  input_.asked = {drive::Button::help};
+  for (int i = 0; i < 100; ++i) {
+    const Beat output = beat(guide_, input_, time_ += 0.02);
+    if (output.voice.start) answers.push_back(output.answers);
+    input_.asked.clear();
+  }
+  ASSERT_GT(answers.size(), 5U);
+  EXPECT_TRUE(answers.front());
+  EXPECT_EQ(std::count(answers.begin(), answers.end(), true), 1);
+}
+
 TEST_F(GuideTest, help_ends_where_another_button_is_pressed) {
   ask({drive::Button::help});
   ask({drive::Button::around});

@@ -262,11 +262,9 @@ void SpeechChannel::obey(const cues::VoiceOrder& order, bool pressed) {
     return [&latencies = latencies_, chain, cause] { latencies.add(chain, cause); };
   };
   if (order.stop) stop(timed(Chain::silence, now));
-  if (order.start && order.asked)
-    start(*order.start, timed(Chain::answer, std::exchange(pressed_, {}).value_or(now)),
-          order.scan);
-  else if (order.start)
-    start(*order.start, timed(Chain::words, now));
+  if (!order.start) return;
+  const auto cause = order.asked ? std::exchange(pressed_, {}) : std::nullopt;
+  start(*order.start, timed(cause ? Chain::answer : Chain::words, cause.value_or(now)), order.scan);
 }
 
 }  // namespace navvi_feedback::devices

@@ -394,6 +394,9 @@ TEST(SpeechChannel, times_words_answers_and_silence) {
   EXPECT_TRUE(seen(Chain::silence));
   EXPECT_TRUE(seen(Chain::answer));
   EXPECT_EQ(latencies.figures(Chain::words).count, 1U);
+  channel.obey({true, "the letter G tells the goal", true});
+  EXPECT_TRUE(wait_for([&] { return latencies.figures(Chain::words).count == 2; }));
+  EXPECT_EQ(latencies.figures(Chain::answer).count, 1U) << "no button went down";
 }
 
 }  // namespace
