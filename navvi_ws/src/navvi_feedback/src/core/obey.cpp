@@ -19,6 +19,7 @@ std::optional<Eigen::Vector2d> place_of(const Observation& now) {
 }  // namespace
 
 cues::Asked Guide::Parts::obey(const Observation& now, double dt, Output& out) {
+  if (now.devices.keyboard && config.lead != "hand") menu.withdraw("hand");
   std::vector<drive::Button> pressed;
   for (const drive::Button button : now.pressed)
     if (!teacher.takes(button)) pressed.push_back(button);

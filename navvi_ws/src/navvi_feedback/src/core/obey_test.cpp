@@ -278,5 +278,29 @@ TEST_F(GuideTest, no_way_of_leading_is_offered_with_which_it_would_not_start_ane
   input_.asked.clear();
 }
 
+TEST_F(GuideTest, no_keys_are_offered_to_lead_by_the_hand_whatever_a_file_holds) {
+  input_.keyboard = true;
+  for (const char* first : {"words", "hand"}) {
+    GuideConfig config;
+    config->lead = first;
+    Guide guide(config, cues::Phrases(kEnglish));
+    guide.offer({{"lead", first}});
+    std::vector<std::string> ways;
+    const auto press = [&](drive::Button button) {
+      input_.asked = {button};
+      const std::string change = beat(guide, input_, time_ += 0.02).change;
+      if (change.empty()) return;
+      ways.push_back(config->lead = change.substr(change.find('=') + 1));
+      guide.use(config);
+    };
+    for (int i = 0; i < 3; ++i) press(drive::Button::choose);
+    for (int i = 0; i < 5; ++i) press(drive::Button::next);
+    for (int i = 0; i < 5; ++i) press(drive::Button::previous);
+    ASSERT_EQ(ways.size(), 10U);
+    EXPECT_EQ(std::count(ways.begin(), ways.end(), "hand"), 0) << "after " << first;
+    EXPECT_EQ(ways.back(), "flow");
+  }
+}
+
 }  // namespace
 }  // namespace navvi_feedback::core
