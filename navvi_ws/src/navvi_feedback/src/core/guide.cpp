@@ -59,6 +59,7 @@ Guide::Parts::Parts(const GuideConfig::Values& config, cues::Phrases worded)
                                     "/enabled is false; it leads only where these are on");
   for (const char* way : {"flow", "hand"})
     if (!config.may_lead(way)) menu.withdraw(way);
+  if (config.drive.enable >= 0) menu.withdraw("9", std::to_string(config.drive.enable));
 }
 
 void Guide::Parts::take(const TrialState& state, double time) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <map>
 #include <memory>
 #include <set>
 
@@ -195,6 +196,27 @@ TEST_F(GuideTest, a_setting_is_changed_by_short_presses_and_heard_or_felt_at_onc
   plays_.clear();
   EXPECT_EQ(press(kUp).change, "sounds/hit/on:=true");
   EXPECT_EQ(played(sounds::Earcon::hit_shelf), 1);
+}
+
+TEST_F(GuideTest, the_button_that_is_held_to_drive_is_switched_and_stays_the_same) {
+  for (const auto& [enable, on] : std::map<int, std::string>{{-1, "9"}, {9, "9"}, {10, "10"}}) {
+    GuideConfig config;
+    config->drive.enable = enable;
+    Guide guide(config, cues::Phrases(kEnglish));
+    guide.offer({{"drive/enable", std::to_string(enable)}});
+    std::string change;
+    const auto press = [&](drive::Button button) {
+      input_.asked = {button};
+      change = beat(guide, input_, time_ += 0.02).change;
+    };
+    for (int i = 0; i < 3; ++i) press(drive::Button::choose);
+    press(drive::Button::previous);
+    EXPECT_EQ(change, "drive/enable:=" + on);
+    press(drive::Button::next);
+    EXPECT_EQ(change, "drive/enable:=-1");
+    press(drive::Button::previous);
+    EXPECT_EQ(change, "drive/enable:=" + on);
+  }
 }
 
 TEST(Help, tells_the_buttons_as_they_are_assigned) {

@@ -53,11 +53,12 @@ class Menu {
     if (!locked_) values_ = std::move(values);
   }
 
-  /// \param value  of a setting that is not to be offered
-  void withdraw(const std::string& value) {
+  /// \param value  of a setting that is not to be offered, but `instead`; empty: nothing is
+  void withdraw(const std::string& value, const std::string& instead = "") {
     for (Setting& setting : settings_) {
       auto& values = setting.values;
-      values.erase(std::remove(values.begin(), values.end(), value), values.end());
+      std::replace(values.begin(), values.end(), value, instead);
+      values.erase(std::remove(values.begin(), values.end(), ""), values.end());
     }
   }
 
