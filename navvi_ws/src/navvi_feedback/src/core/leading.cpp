@@ -21,7 +21,7 @@ void Guide::Parts::ask_side(Observation& now, double time, Output& out) {
   const Devices& devices = now.devices;
   const bool known = devices.ears.empty() || devices.ears == config.sounds.sides;
   const bool by_sounds = now.lead == Lead::ticks || now.lead == Lead::flow;
-  const bool may = !known && by_sounds && devices.sounds && devices.words && devices.hands.live &&
+  const bool may = !known && by_sounds && devices.words && devices.hands.live &&
                    !teacher.teaching() && now.trial == TrialState::State::ready;
   const std::optional<bool> right = side.update(may, !now.voice_busy, now.stick.x, time);
   if (right == false) sounds.turn().find_sides_wrong();

@@ -32,9 +32,6 @@ std::optional<int> away_from_touched(const Observation& now, bool held) {
   return std::nullopt;
 }
 
-/// m/s and rad/s; a command below these is neutral.
-constexpr Velocity kNeutral{0.02, 0.05};
-
 bool beyond(double value, double limit) { return std::abs(value) > limit; }
 
 Rounding rounding_of(const std::string& word) {
@@ -74,8 +71,8 @@ void Bearing::observe(const Observation& now, bool halted, double time) {
   const bool ahead = hour_ == 12 && rounding_ == Rounding::nearest;
   if (ahead) hour_ = lead_off(now, config_.kInTheWay, leads_off_ || halted);
   leads_off_ = ahead && hour_ != 12;
-  if (beyond(now.commanded.linear, kNeutral.linear) ||
-      beyond(now.commanded.angular, kNeutral.angular))
+  if (beyond(now.commanded.linear, now.kNeutral.linear) ||
+      beyond(now.commanded.angular, now.kNeutral.angular))
     last_commanded_ = time;
   const bool spot =
       now.measured && beyond(now.measured->angular, config_.kTurningRate) &&

@@ -32,9 +32,8 @@ bool Stray::due(const Observation& now, const StrayConfig& config, double time) 
 }
 
 void StillHand::observe(const Observation& now, double time) {
-  constexpr Velocity kNeutral{0.02, 0.05};  // m/s and rad/s; a command below these is neutral
-  const bool drives = std::abs(now.commanded.linear) > kNeutral.linear;
-  const bool turns = std::abs(now.commanded.angular) > kNeutral.angular;
+  const bool drives = std::abs(now.commanded.linear) > now.kNeutral.linear;
+  const bool turns = std::abs(now.commanded.angular) > now.kNeutral.angular;
   driven = driven || drives;
   const bool in_vain = now.stick_held_unarmed || now.stick_disabled;  // HeldStick says what helps
   since = since_when(!drives && !turns && !in_vain && !now.voice_busy, since, time);

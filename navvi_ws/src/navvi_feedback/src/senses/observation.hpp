@@ -72,6 +72,7 @@ struct Observation {
   bool menu_open = false;                 ///< the person chooses from it
   bool robotless = false;                 ///< a lesson that wants no robot: none of it is missed
   Velocity commanded;                     ///< what was last sent to it
+  static constexpr Velocity kNeutral{0.02, 0.05};  ///< m/s, rad/s; a command below is neutral
   std::optional<Velocity> measured;       ///< nullopt while the odometry is missing or stale
   Velocity last_measured;                 ///< the latest, however old
   std::optional<DriveState::State> gate;  ///< of the last stage before the wheels, if it is known
