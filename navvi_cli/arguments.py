@@ -30,6 +30,8 @@ FORMS = {
 }
 # Parameters that name a file: nodes run in another folder than the command.
 FILES = ("feedback/phrases", "feedback/questions", "feedback/record", "nav/mesh/zones", "perception/prior")
+# The part whose parameters a node takes, where its name is another; without _node.
+PART_OF = {"relay": "safety"}
 # The command itself sets these.
 INTERNAL = re.compile(r".*parameters|version|bag|clock|far")
 
@@ -68,8 +70,9 @@ def sides(root):
 def fixed_parameters(root):
     """Parameters such as sim/seed that a launch file, or one that it includes, gives to a node as <param>: these win."""
     roots = [root, *sides(root)]
-    return {f"{node.get('name')[:-len('_node')]}/{param.get('name')}" for root in roots for node in root.iter("node")
-            if node.get("name").endswith("_node") for param in node.findall("param")}
+    found = [(node.get("name")[:-len("_node")], param) for root in roots for node in root.iter("node")
+             if node.get("name").endswith("_node") for param in node.findall("param")]
+    return {f"{PART_OF.get(name, name)}/{param.get('name')}" for name, param in found}
 
 
 class Words(dict):

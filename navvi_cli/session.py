@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 
+from .arguments import PART_OF
 from .places import DEVEL, SHELL, WORKSPACE, program, share
 from .say import fail
 from .version import version
@@ -76,16 +77,17 @@ def resolve_rviz(words):
 
 def nodes_of(words):
     """The program of each part that has parameters."""
-    parts = sorted({word.partition("/")[0] for word in words.parameters})
-    return {part: next((DEVEL / "lib").glob(f"navvi_*/{part}_node"), program("navvi", f"{part}_node")) for part in parts}
+    called = {part: name for name, part in PART_OF.items()}
+    names = {part: f"{called.get(part, part)}_node" for part in sorted({word.partition("/")[0] for word in words.parameters})}
+    return {part: next((DEVEL / "lib").glob(f"navvi_*/{name}"), program("navvi", name)) for part, name in names.items()}
 
 
-def accepted(part, node, parameters):
+def accepted(node, parameters):
     """Parameters as YAML, if the node takes them."""
     packages = dict(os.environ, ROS_PACKAGE_PATH=str(share("")))  # of the phrases
     checked = subprocess.run([str(node), "--parameters", *parameters], env=packages, text=True, errors="replace", capture_output=True)
     if checked.returncode:
-        fail(f"{part}_node refuses this: {checked.stderr.strip()}", 2)
+        fail(f"{node.name} refuses this: {checked.stderr.strip()}", 2)
     return checked.stdout.strip()
 
 
@@ -94,7 +96,7 @@ def check_parameters(words):
     if words.get("zones"):
         words.parameters.append(f"nav/mesh/zones:={os.path.abspath(words.pop('zones'))}")
     for part, node in nodes_of(words).items():
-        words[f"{part}_parameters"] = accepted(part, node, words.parameters_of(part))
+        words[f"{part}_parameters"] = accepted(node, words.parameters_of(part))
     words["parameters"] = " ".join(words.parameters).replace(":=", "=")  # roslaunch ignores a value with := in it
     words["version"] = version()
 

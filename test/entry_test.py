@@ -11,6 +11,8 @@ import pytest
 import yaml
 
 from sessions import ROOT, navvi, roslaunch, summary
+from navvi_cli.arguments import LaunchFile, words_for
+from navvi_cli.session import check_parameters
 
 SIMULATED = ["operator:=simulated", "rviz:=false"]
 
@@ -101,6 +103,8 @@ def test_shell_scripts_are_clean():
     (["robot", "check", "radius:=20cm"], "radius:=20cm is not allowed; allowed are numbers above 0."),
     (["robot", "check", "perception/no_return:=fre"], "perception_node refuses this: "),
     (["robot", "check", "perception/foo:=1"], "the key \"foo\" is unknown"),
+    *((["robot", action, "safety/foo:=1"], "relay_node refuses this: the arguments: the key \"foo\" is unknown") for action in ("start", "check")),
+    (["robot", "start", "safety/emergency_stop:=/stop"], "\"safety/emergency_stop\" would have no effect; allowed is emergency_stop:=/stop."),
     (["replay"], "missing: TRIAL"),
     (["calibrate"], "person:=NAME is needed"),
     (["glossary", "world:=busy"], "\"world\" is unknown"),
@@ -258,6 +262,14 @@ def test_P2_a_parameter_that_is_taken_is_in_force():
     for part, words in given.items():
         for name, value in yaml.safe_load(f"{{{words}}}").items():
             assert values[f"/{part}_node/{name}"] == value, name
+
+
+@pytest.mark.parametrize("launch, more", [("robot.launch", ["rviz:=false"]), ("robot_side.launch", [])])
+def test_P2_what_is_set_of_the_last_stage_before_the_wheels_reaches_it(launch, more):
+    words = words_for(LaunchFile(launch), ["safety/assistance:=stop", "safety/max_linear:=0.3"])
+    check_parameters(words)
+    values = yaml.safe_load(roslaunch("--dump-params", launch, *more, f"safety_parameters:={words['safety_parameters']}"))
+    assert (values["/relay_node/assistance"], values["/relay_node/max_linear"]) == ("stop", 0.3)
 
 
 @pytest.mark.parametrize("path", sorted((ROOT / "rviz").glob("*.rviz")), ids=lambda path: path.name)

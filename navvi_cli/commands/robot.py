@@ -83,9 +83,9 @@ class Check:
         launch = LaunchFile("robot.launch")
         given = words_for(launch, args.words)
         if not is_current(*nodes_of(given).values()):
-            build(*(f"{part}_node" for part in nodes_of(given)))
+            build(*(node.name for node in nodes_of(given).values()))
         for part, node in nodes_of(given).items():
-            accepted(part, node, given.parameters_of(part))
+            accepted(node, given.parameters_of(part))
         words = {name: default for name, (default, _) in launch.arguments.items()} | given
         words |= dict(word.split(":=", 1) for word in given.parameters)
         checked = robot.Robot(words, given)

@@ -150,7 +150,7 @@ def job_of(words):
 def check_lists(words):
     check_parameters(words)
     for name in filter(words.get, PLACES):
-        accepted("feedback", FEEDBACK, [f"places:={words[name]}"])
+        accepted(FEEDBACK, [f"places:={words[name]}"])
     if words.get("jobs") and not job_of(words):
         fail(f"{words['jobs']}: a job must have at least one place.", 2)
 
