@@ -1,5 +1,6 @@
 """The actions of `./navvi study`: each a function with its help and its arguments. Nothing here knows how programs are built."""
 import difflib
+from pathlib import Path
 
 from .errors import StudyError
 
@@ -337,28 +338,36 @@ def rehearse(args):
     Exit codes
     0: done. 2: the plan cannot be run, and why.
     """
-    from . import plan_file, rehearsal, worlds
+    from . import plan_file, rehearsal
     planned = plan_file.load(args.plan)
-    worlds.require_files(planned, TOOLS["tool"])
+    _require_files(planned)
     _write_report(rehearsal.rehearse(planned, TOOLS["tool"]("navvi_study", "trials_bench"), TOOLS["version"]()), args.only, rehearsed=True)
 
 
 def _require_runnable(plan):
     """Raises StudyError for what a session would refuse while the participant waits."""
-    from . import worlds
     from .record import TOLD
     columns = {rule.column for rule in plan.exclusions} - {"result", *TOLD}
     known = [figure["name"] for figure in _figures()] if columns else []
     for column in sorted(columns - {*known}):
         raise StudyError(f"{plan.file}: \"exclusions\" have the column \"{column}\", which no summary has; allowed are the columns of summary.csv, "
                          f"such as {', '.join(difflib.get_close_matches(column, known, 3, 0))}.")
-    worlds.require_files(plan, TOOLS.get("tool"))
+    _require_files(plan)
     for condition in plan.conditions:
         try:
             if condition.parameters:
                 TOOLS["accept"]([f"{name}:={value}" for name, value in condition.arguments().items() if "/" in name])
         except StudyError as problem:
             raise StudyError(f"{plan.file}: condition {condition.name}: {problem}") from None
+
+
+def _require_files(plan):
+    """Raises StudyError for files beside the plan that a session refuses."""
+    from . import questionnaire, worlds
+    worlds.require_files(plan, TOOLS.get("tool"))
+    for asks in {plan.steps["consent"], *plan.asked} - {None}:
+        if Path(asks.file).parent != questionnaire.SHIPPED:
+            questionnaire.require_speakable(asks, TOOLS["tool"]("navvi_feedback", "feedback_node"))
 
 
 def _live_session(study, typed):

@@ -1,6 +1,8 @@
 """Questionnaires as YAML files: items, answers and scores."""
 import os
 import re
+import subprocess
+import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -156,6 +158,17 @@ def script(items, title, intro):
         "values": item.values(), "spoken": [said(item, at, value) for at, value in enumerate(item.values())]})} for item in items]
     asks[0]["ask"] = ". ".join(words for words in (title, intro, asks[0]["ask"]) if words)
     return yaml.safe_dump({"items": asks}, allow_unicode=True, sort_keys=False, width=1000)
+
+
+def require_speakable(one, feedback_node):
+    """Raises StudyError for what the voice refuses. \\param feedback_node  the program that asks"""
+    with tempfile.NamedTemporaryFile("w", encoding="utf-8") as file:
+        file.write(script(one.items, one.title, one.intro))
+        file.flush()
+        command = [str(feedback_node), "--parameters", f"questions:={file.name}"]
+        asked = subprocess.run(command, capture_output=True, text=True, errors="replace", check=False)
+    if asked.returncode != 0:
+        raise StudyError(f"{one.file}: {asked.stderr.strip().removeprefix(f'{file.name}: ')}")
 
 
 def read_answers(path):
