@@ -1,6 +1,7 @@
 """A session is read by Lab Streaming Layer's own inlets, and the journal has the offset of its clock."""
 import json
 import math
+import os
 import re
 import subprocess
 
@@ -29,6 +30,41 @@ while time.monotonic() < deadline and not any('"TRIAL_END"' in sample[0] for _, 
         read[name] += [[time, sample] for time, sample in zip(times, samples)]
 json.dump(read, sys.stdout)
 """
+
+
+# Instead of pylsl: an outlet listens on all interfaces, as liblsl's.
+ANY = """
+import socket, time
+IRREGULAR_RATE, cf_string, cf_double64, cf_float32, local_clock = 0.0, 1, 2, 3, time.monotonic
+class Part:
+    def append_child(self, *_):
+        return self
+    append_child_value = append_child
+class StreamInfo(Part):
+    def __init__(self, *_):
+        self.desc = Part
+class StreamOutlet:
+    def __init__(self, _):
+        self.socket = socket.create_server(("", 0))
+    def push_sample(self, _):
+        pass
+"""
+
+
+def test_streams_are_open_to_the_network_and_end_with_a_session_that_is_killed(session, tmp_path):
+    (tmp_path / "pylsl.py").write_text(ANY)
+    begun = session("world:=training", "lsl:=true", "limit:=300", PYTHONPATH=f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}")
+    begun.wait_until_begun()
+
+    def listening():
+        """Addresses of the program of the streams."""
+        sockets = subprocess.check_output(["ss", "-ltnpH"], text=True).splitlines()
+        numbers = [number for number, line in begun.of_it().items() if "/lsl_outlets " in line]
+        return [line.split()[3].rpartition(":")[0] for number in numbers for line in sockets if f"pid={number}," in line]
+    begun.wait_until(lambda: listening().count("0.0.0.0") == 4, 30, "all four streams are open")
+    assert {*listening()} == {"0.0.0.0", "127.0.0.1"}, "its ports of ROS are not"
+    begun.kill("/roslaunch")
+    begun.wait_until(lambda: not listening(), 10, "they have ended")
 
 
 @pytest.fixture(scope="module")
