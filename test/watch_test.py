@@ -14,7 +14,7 @@ import rosbag
 import rospy
 from navvi_msgs.msg import Contact, Cue, DriveState, Guidance, TrialEvent, TrialState
 
-from sessions import DARK, ROOT, Command, Programs, eventually, navvi, sourced
+from sessions import DARK, ROOT, Command, Programs, eventually, navvi, rows_of, sourced
 from navvi_study import watch
 
 pytestmark = pytest.mark.accessibility
@@ -261,6 +261,15 @@ def test_a_running_session_is_found_and_told_to_its_end(session, tmp_path):
     assert "Follow the path" in text and "Said: " in text, text
     assert "The trial has ended: timeout" in text and text.endswith("The session has ended.\n"), text
     assert [*tmp_path.glob("session-*/**/roslaunch-*.log")], "the logs of ROS lie with the record"
+
+
+def test_in_a_session_for_its_voice_words_lead_and_nothing_sounds(session, tmp_path):
+    line = re.search(r"^\./navvi run (.*)", navvi("watch", "--help").stdout.replace("\\\n", ""), re.M)[1]
+    words = line.replace("speech:=false ", "").split()  # without which the simulated person hears nothing
+    session("world:=training", "limit:=25", *words).wait_until_ended()
+    [journal] = tmp_path.glob("trial-*/journal.csv")
+    cues = [row["fields"] for row in rows_of(journal) if row["type"] == "CUE"]
+    assert [cue for cue in cues if "modality=speech" in cue] and not [cue for cue in cues if "modality=sound" in cue]
 
 
 def test_where_no_session_runs_that_is_said(tmp_path):

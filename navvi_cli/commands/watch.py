@@ -5,11 +5,10 @@ session that runs on this machine (./navvi run in another terminal); with a
 trial's folder, that record. Each line says something new and ends with the
 seconds since the trial began (or since watching began).
 
-For the voice of speech:=true alone, start the session with
-"./navvi run speech:=false feedback/listener:=topic". In a running session the
-newest state and distance replace those that wait, contacts and stops come
-first, and if much comes at once the least important lines are left out; how
-many is said.
+For the voice of speech:=true alone, start the session as in the last example;
+then words lead. In a running session the newest state and distance replace
+those that wait, contacts and stops come first, and if much comes at once the
+least important lines are left out; how many is said.
 
 Exit codes
 0: the session or the record ended. 2: a wrong argument, or nothing to watch.
@@ -18,6 +17,8 @@ Exit codes
 Examples
 ./navvi watch
 ./navvi watch trials/trial-20260101T120000Z > trial.txt
+./navvi run speech:=false feedback/listener:=topic \\
+feedback/sounds/enabled:=false
 """
 import os
 import sys
