@@ -4,6 +4,8 @@ import os
 import pytest
 
 from sessions import WORLD, Programs, eventually, within
+from navvi_cli.arguments import LaunchFile, words_for
+from navvi_cli.commands import run
 from navvi_study.record import Record
 
 
@@ -35,6 +37,16 @@ def test_a_pad_that_is_lost_at_full_speed_stops_the_robot(master, tmp_path, plug
     assert speed >= 0.8
     within(record_property, "wheels held", held, bound)
     within(record_property, "still", still, bound + 0.25)
+
+
+@pytest.mark.parametrize("word", ["feedback/haptics/enabled:=false", "person:=anna"])
+def test_motors_that_are_off_by_wish_keep_no_trial_from_its_begin(master, tmp_path, plugged, monkeypatch, word):
+    monkeypatch.setenv("NAVVI_PEOPLE", str(tmp_path))
+    (tmp_path / "anna.yaml").write_text("haptics:\n  enabled: false\n")
+    words = words_for(LaunchFile("live.launch"), [word, "operator:=pad", "speech:=false", "trial/press_to_start:=false"])
+    run.check_lists(words)
+    with by_pad(master, tmp_path, plugged, *(f"{name}:={words[name]}" for name in ("feedback_parameters", "trial_parameters"))) as programs:
+        assert eventually(lambda: [*tmp_path.glob("trial-*/journal.csv")], 120), programs.log.read_text()[-3000:]
 
 
 def test_J3_pads_that_come_and_go_and_guides_that_are_killed_move_nothing_without_neutral(master, tmp_path, plugged):

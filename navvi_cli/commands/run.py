@@ -149,10 +149,20 @@ def job_of(words):
 
 def check_lists(words):
     check_parameters(words)
+    let_motors_rest(words)
     for name in filter(words.get, PLACES):
         accepted(FEEDBACK, [f"places:={words[name]}"])
     if words.get("jobs") and not job_of(words):
         fail(f"{words['jobs']}: a job must have at least one place.", 2)
+
+
+def let_motors_rest(words):
+    """Where a condition or the person has those of a pad off, no trial waits for them, as person.launch else lets it."""
+    import yaml
+    haptics = yaml.safe_load(words.get("feedback_parameters", "{}")).get("haptics") or {}
+    if words["operator"] == "pad" and haptics.get("enabled") is False:
+        parameters = {"require": ["speech"] if words["speech"] == "true" else [], **yaml.safe_load(words.get("trial_parameters", "{}"))}
+        words["trial_parameters"] = yaml.safe_dump(parameters, default_flow_style=True, width=1 << 20).strip()
 
 
 def check_by_programs(words):
