@@ -561,6 +561,25 @@ def test_what_describes_a_person_is_asked_of_those_who_agreed_and_stands_in_the_
     assert "at_begin" not in small(tmp_path).values() and "scope" not in str(small(tmp_path).values()), "plans without keep their hash"
 
 
+@pytest.mark.parametrize("later", ["", "\nconsent: consent"])
+def test_a_no_to_sharing_holds_whatever_consent_a_later_plan_has(tmp_path, later):
+    (tmp_path / "consent.yaml").write_text("title: Consent\nitems: [{name: agree, ask: Do you agree, choices: [\"no\", \"yes\"], required: \"yes\"}]")
+    kept = frozen(tmp_path, ("limit: 60", "limit: 60\nconsent: consent_example"))
+    for name, share in ("sub-01", "no"), ("sub-02", "yes"):
+        begun = begin(kept)
+        begun.runner.ask = lambda participant, step, items, answered, lock, share=share: [
+            answered(item, share if item.name == "share" else item.values()[-1]) for item in items]
+        rest(begun, name)
+    other = study.Study(small(tmp_path, ("limit: 60", "limit: 60" + later)))
+    other.freeze("test", "version 2")
+    rest(begin(other), "sub-03")
+    for name, at in itertools.product(("sub-01", "sub-02", "sub-03"), range(2)):
+        write_record(trial_of(other, name, at)[1])
+    assert export.agreed(other, other.progress()) == {"sub-01": False, "sub-02": True, "sub-03": True}
+    folder = export.write(other, other.progress(), lambda trial: [])
+    assert sorted(path.name for path in folder.glob("sub-*")) == ["sub-02", "sub-03"] and "sub-01" not in (folder / "participants.tsv").read_text()
+
+
 def test_who_withdraws_is_erased_also_when_that_was_broken_off(work, tmp_path):
     rest(work())
     work.study.journal.append("withdraw", participant="sub-01", data="delete")

@@ -53,11 +53,13 @@ def write(study, progress, read_way):
 
 
 def agreed(study, progress):
-    """By participant with a trial that counts: whether it is exported, as the person agreed to share or was not asked."""
+    """By participant with a trial that counts: whether it is exported, as the person agreed to share or was never asked."""
     consent = progress.plan.steps["consent"]
     asked = consent and SHARE in [item.name for item in consent.items]
     driven = {row["participant"] for row in table.trials(study, progress) if row["counts"] == "yes"}
-    return {name: not asked or study.agreed(name, SHARE) for name in driven}
+    # Of each consent that was asked: that of the plan may be another, without the item.
+    given = {name: [row["answer"] for row in study.answers(name) if row["item"] == SHARE and row["step"].endswith("-consent")] for name in driven}
+    return {name: given[name][-1:] == ["yes"] or not (asked or given[name]) for name in driven}
 
 
 def _trial(folder, row, attempt, run, study, read_way):
