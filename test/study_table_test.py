@@ -3,8 +3,10 @@ import functools
 import json
 import math
 import os
+import pty
 import shutil
 import signal
+import subprocess
 import threading
 import time
 
@@ -456,6 +458,18 @@ def test_what_is_typed_while_no_trial_runs_is_told_and_is_no_note_of_the_next_tr
     assert time.monotonic() - begun >= 0.1, "also where nothing can be typed"
 
 
+def test_all_lines_of_a_terminal_that_were_typed_while_no_trial_ran_are_no_notes_of_the_next(capsys):
+    master, slave = pty.openpty()
+    lines = runner.Lines(slave)
+    os.write(master, b"n first\nn second\na\n")
+    lines.drop()
+    assert lines.next(0.0) is None and capsys.readouterr().out.count(" was typed while no trial runs") == 3
+    os.write(master, b"n in the trial\n")
+    assert lines.next(5.0) == "n in the trial"
+    for end in master, slave:
+        os.close(end)
+
+
 @pytest.mark.parametrize("seconds", [0.0, 0.01])
 def test_what_does_not_cease_to_come_is_read_no_longer_than_it_shall_be(tmp_path, seconds):
     (tmp_path / "typed").touch()
@@ -464,6 +478,9 @@ def test_what_does_not_cease_to_come_is_read_no_longer_than_it_shall_be(tmp_path
         lines = runner.Lines(typed.fileno())
         lines.drop(seconds)
         assert lines.open and 0 < typed.tell() < 1 << 30
+    with subprocess.Popen(["yes"], stdout=subprocess.PIPE) as typing:
+        runner.Lines(typing.stdout.fileno()).drop(seconds)
+        typing.kill()
 
 
 @pytest.mark.parametrize("problem", [StudyError("the disk is full"), UnicodeEncodeError("utf-8", "\udce9", 0, 1, "no"), OSError(28, "No space left")])

@@ -141,15 +141,16 @@ class Lines:
         return line.decode(errors="replace").strip()
 
     def drop(self, seconds=0.0):
-        """Reads for so many seconds, and once at least, while nothing takes what is typed, also what was typed before."""
-        end = time.monotonic() + seconds
+        """Reads for so many seconds while nothing takes what is typed, also all that was typed before."""
+        end, most = time.monotonic() + seconds, LONGEST
         while True:
-            left = max(0.0, end - time.monotonic())
-            self._read(left)
+            left, held = max(0.0, end - time.monotonic()), len(self.rest)
+            came = self._read(left)
+            most -= len(self.rest) - held if left == 0.0 else 0
             while self.rest and self._whole():
                 if line := self.next():
                     print(f"navvi: \"{line[:40]}\" was typed while no trial runs, and nothing is written.", flush=True)
-            if left == 0.0:  # however much is still to be read
+            if left == 0.0 and (not came or most <= 0):  # a terminal gives a line a read; of what does not cease to come no more is read
                 return
 
     def _whole(self):
