@@ -141,6 +141,39 @@ def test_a_job_is_a_trial_with_a_row_a_leg_in_tables_and_report(tmp_path):
     assert "files differ: summary.csv" in verify.verify(kept, kept.progress(), "true")[0][0]
 
 
+NAMED = (("packing table", "pick"), ("gate 4", "drive"))
+
+
+class Named(Legs):
+    """Each leg's journal names its place, as that of a session does."""
+
+    def trial(self, participant, step, attempt, folder, lock):
+        super().trial(participant, step, attempt, folder, lock)
+        for trial, (name, task) in zip(sorted(folder.iterdir()), NAMED if attempt.seed == 1 else ()):
+            write_record(trial)
+            path = trial / "journal.csv"
+            path.write_text(path.read_text().replace("TRIAL_START,x=0", f"TRIAL_START,job_name={name.replace(' ', '%20')};job_task={task};x=0"))
+
+
+def _drop_outs(kept):
+    return [(row["condition"], row["trials"], row["mean"]) for row in Analysis(kept, kept.progress()).by_condition("drop_out")]
+
+
+@pytest.mark.parametrize("results", [["reached", "reached"], ["aborted"]])
+@pytest.mark.parametrize("later", ["swapped", "none", "one more"])
+def test_a_leg_keeps_its_place_and_task_whatever_job_a_later_plan_has(tmp_path, results, later):
+    kept = job(tmp_path)
+    rest(begin(kept, results, driver=Named))
+    rows, dropped, text = table.trials(kept, kept.progress()), _drop_outs(kept), (tmp_path / "round.yaml").read_text()
+    assert [(row["leg"], row["place"], row["do"]) for row in rows[:-1]] == [(str(at + 1), *NAMED[at]) for at in range(len(results))]
+    if later == "swapped":
+        (tmp_path / "round.yaml").write_text("".join(reversed(text.splitlines(True))))
+    other = study.Study(small(tmp_path, *{"swapped": [JOB], "none": [], "one more": [JOB, ("b: {world: easy", "b: {jobs: round.yaml, world: easy")]}[later]))
+    other.freeze("test", later)
+    assert table.trials(other, other.progress()) == rows and _drop_outs(other) == dropped
+    assert report.legs(other, other.progress()) == report.legs(kept, kept.progress())
+
+
 @pytest.mark.parametrize("results, result, counts", [
     (["timeout", "reached"], "timeout", True), (["reached", "aborted"], "aborted", False), (["reached"], "aborted", False), (["invalid"], "invalid", False)])
 def test_a_job_counts_where_each_of_its_legs_was_driven_to_its_end(tmp_path, results, result, counts):

@@ -29,6 +29,7 @@ class Attempt:
     final: bool = False  # excluded, and no other attempt takes its place
     dropped_out: bool = False  # the person or the experimenter ended it
     legs: dict = field(default_factory=dict)  # by trial, more than one of a job: SHA-256 of its files when it ended, by name; none in journals of before
+    job: bool = False  # its world had one when it ended
 
     @property
     def counts(self):
@@ -149,7 +150,7 @@ class Progress:
     def _end(self, row):
         attempt = self._attempt(row)
         attempt.ended, attempt.trial, attempt.result, attempt.collisions = True, row["trial"], row["result"], row["collisions"]
-        attempt.legs = row.get("legs", {row["trial"]: row.get("sums", {})} if row["trial"] else {})
+        attempt.job, attempt.legs = "legs" in row, row.get("legs", {row["trial"]: row.get("sums", {})} if row["trial"] else {})
         if "excluded" in row:  # by a rule, which in journals of before wrote a row of its own
             attempt.excluded, attempt.excluded_by, attempt.final, attempt.dropped_out = row["excluded"], "rule", row["drop_out"], row["drop_out"]
 

@@ -65,9 +65,11 @@ def trials(study, progress, strict=True):
                 row = whole if at == 0 else {**whole, "marks": 0, "interventions": 0}  # of all legs, in the first
                 summary = study.summary(person.name, attempt, trial, strict)
                 row = {**row, **{name: cell for name, cell in summary.items() if name not in NOT_OURS}, "trial": trial}
-                if places:  # with more legs, to another goal, nobody knows which led where
-                    place, task = places[at][2:] if len(attempt.legs) <= len(places) else ("n/a", "n/a")
-                    row.update(leg=at + 1, place=place, do=task)
+                if attempt.job:  # places as its record names them; those of a rehearsal have only the plan's
+                    start = Record(study.attempt_folder(person.name, attempt.step, attempt.number) / trial).first("TRIAL_START")
+                    place, task = places[at][2:] if len(attempt.legs) <= len(places) else ("n/a", "n/a")  # with more legs nobody knows which led where
+                    told = start.fields if start else {}
+                    row.update(leg=at + 1, place=told.get("job_name", place), do=told.get("job_task", task))
                 rows.append({name: str(cell) for name, cell in row.items()})
     return rows
 
