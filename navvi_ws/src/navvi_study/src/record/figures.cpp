@@ -22,7 +22,6 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFelt = 3.0;       // s before a contact
 constexpr double kTold = 2.0;       // s
 constexpr double kLongAgo = 10.0;   // s; a word before that was no warning
-constexpr double kSameGoal = 0.05;  // m
 
 std::string text_of(double value, int decimals = 3) {
   return std::isfinite(value) ? fixed(value, decimals) : kNothing;

@@ -27,6 +27,7 @@ struct Trial {
 
 /// s, ROS time.
 [[nodiscard]] inline double time_of(const Row& row) { return 1e-9 * static_cast<double>(row.sim_ns); }
+inline constexpr double kSameGoal = 0.05;  ///< m, between two that are one
 
 /// A column of the summary, and of the tables of batches and studies: counted in the record, stated
 /// by TRIAL_START, or reported by feedback_node in its diagnostics, which TRIAL_END keeps.

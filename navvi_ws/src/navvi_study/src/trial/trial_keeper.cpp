@@ -17,13 +17,12 @@ constexpr double kSilent = 1.0;                  // s
 constexpr double kSayAgain = 5.0;                // s, between sentences on what is missing
 constexpr double kDrain = 0.3;                   // s, for reports on their way when a trial ends
 constexpr double kHurry = 8.0;  // s, for a recorder once all must stop; roslaunch waits 15 s
-constexpr double kSame = 0.05;  // m, between a goal and what the guidance shows of it
 
 std::optional<std::size_t> TrialKeeper::Job::at(const Eigen::Vector2d& goal) const {
   std::vector<std::size_t> order = left;  // of two places at one spot that which is still to come
   for (std::size_t i = 0; i < places.size(); ++i) order.push_back(i);
   for (const std::size_t i : order)
-    if ((places[i].at - goal).norm() < kSame) return i;
+    if ((places[i].at - goal).norm() < record::kSameGoal) return i;
   return std::nullopt;
 }
 
@@ -80,7 +79,7 @@ void TrialKeeper::take(const Guidance& guidance, const Moment& now) {
   now_ = now;
   const bool refused = guidance.state == Guidance::State::goal_refused && !drops(guidance.stamp);
   if (phase_ != Phase::running && refused && goals_.next && job_.places.empty() &&
-      (guidance.goal - goals_.next->place).norm() < kSame)
+      (guidance.goal - goals_.next->place).norm() < record::kSameGoal)
     goals_.next.reset();
   observe(guidance);
 }
@@ -345,6 +344,7 @@ void TrialKeeper::watch() {
   watch_feedback(seen.feedback_silence);
   watch_settings();
   if (const auto ending = flow_.watch(seen)) return end(*ending);
+  if (monitor_.goal_taken()) goals_.before.reset();  // given up
   ask_for_goal();
 }
 

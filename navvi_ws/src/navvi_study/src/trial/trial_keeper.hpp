@@ -119,7 +119,7 @@ class TrialKeeper {
   struct Goals {
     std::optional<ChosenGoal> next;  ///< of the trial that is to begin
     ChosenGoal now;
-    std::optional<ChosenGoal> before;  ///< that was taken, if a later one is refused
+    std::optional<ChosenGoal> before;  ///< that was taken, until a later one is
     GoalTries tries;
   };
   struct Offered {

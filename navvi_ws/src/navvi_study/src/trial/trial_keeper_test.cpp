@@ -204,6 +204,17 @@ TEST_F(Trials, keep_their_goal_when_another_one_is_refused) {
   EXPECT_TRUE(holds("summary.csv", "reached"));
 }
 
+TEST_F(Trials, lead_back_to_no_goal_that_was_given_up_for_another_which_was_followed) {
+  run();
+  const Eigen::Vector2d other(3.0, 0.0);
+  keeper_->take_goal(other, now());
+  live(1.0, State::following, other);
+  goals_.clear();
+  live(9.0, State::goal_refused, other);
+  EXPECT_TRUE(goals_.empty());
+  EXPECT_TRUE(holds("summary.csv", ",refused,"));
+}
+
 /// A newer stamp would be the person's second ask, by which they are led toward the unseen.
 TEST_F(Trials, N12_send_a_goal_again_with_the_stamp_of_the_persons_message_and_the_worlds_without) {
   config_.once = false;

@@ -10,8 +10,8 @@
 namespace navvi_study::trial {
 namespace {
 
+using record::kSameGoal;
 constexpr std::size_t kReports = 20;  // of latencies; some seconds
-constexpr double kSameGoal = 0.05;    // m
 constexpr double kMoved = 0.05;       // m, driven
 constexpr double kTurned = 0.1;       // rad
 constexpr double kOldNews = 2.0;      // s in which guidance may be of the same place, set before
