@@ -220,11 +220,17 @@ double told_before(const Trial& trial, std::string thing_class, double time) {
       named(time_of(row));
   return told;
 }
+/// A row by which the sound device is, or was, lost.
+bool is_soundless(const Row& row) {
+  return row.fields.get("audio") == "missing" || row.fields.get("device") == "audio";
+}
 /// nullopt where it is not known what was felt: without a track, and where the motors lead, which
-/// turn for the course and not for what is near.
+/// turn for the course and not for what is near; a simulated person hears without a device.
 std::optional<std::vector<Warning>> warnings_of(const Trial& trial) {
   const std::string settings = " " + text_of(start_of(trial), "settings") + " ";
-  if (trial.track.empty() || settings.find(" feedback/lead=hand ") != settings.npos)
+  const bool simulated = text_of(start_of(trial), "pad") == "simulated";
+  if (trial.track.empty() || settings.find(" feedback/lead=hand ") != settings.npos ||
+      (!simulated && counts(is_soundless)(trial) != "0"))
     return std::nullopt;
   std::vector<Warning> found;
   for (const Row& row : trial.rows)

@@ -221,6 +221,22 @@ TEST(Figures, tell_of_no_warning_by_motors_that_lead) {
   }
 }
 
+TEST(Figures, tell_of_no_warning_where_a_person_is_led_by_motors_as_no_sound_device_is_open) {
+  for (const char* pad : {"works", "simulated"})
+    for (const char* lost : {"missing", "amid", "found", "not", "off"}) {
+      Made trial = minute();
+      Fields& start = trial.rows.front().fields;
+      start = Fields().set("phrases", "en.yaml").set("pad", pad);
+      const std::string word = lost;
+      start.set("audio", word == "missing" || word == "off" ? word : "works");
+      if (word == "amid") trial.add(120.0, "DEVICE_LOST", Fields().set("device", "audio"));
+      if (word == "found") trial.add(120.0, "DEVICE_BACK", Fields().set("device", "audio"));
+      const bool deaf = word != "not" && word != "off" && pad == std::string("works");
+      for (const char* name : {"late_warnings", "warned"})
+        EXPECT_EQ(columns(trial)[name] == "n/a", deaf) << name << ", " << pad << ", " << lost;
+    }
+}
+
 TEST(Figures, of_words_are_not_known_in_another_language) {
   Made trial = minute();
   trial.rows.front().fields = Fields().set("phrases", "es.yaml");

@@ -326,15 +326,11 @@ void TrialKeeper::keep_track(std::int64_t until) {
 }
 
 void TrialKeeper::ask_for_goal() {
-  switch (goals_.tries.next(monitor_.goal_taken(), now_.wall(), monitor_.round_trip())) {
-    case GoalTries::Next::wait:
-      return;
-    case GoalTries::Next::send:
-      return outlets_.set_goal(goals_.now);
-    case GoalTries::Next::give_up:
-      tell(Tone::error, "The goal was set several times, but the guidance does not show it.");
-      return end({"aborted", "goal_not_taken", monitor_.latest()});
-  }
+  const auto next = goals_.tries.next(monitor_.goal_taken(), now_.wall(), monitor_.round_trip());
+  if (next == GoalTries::Next::send) outlets_.set_goal(goals_.now);
+  if (next != GoalTries::Next::give_up) return;
+  tell(Tone::error, "The goal was set several times, but the guidance does not show it.");
+  end({"aborted", "goal_not_taken", monitor_.latest()});
 }
 
 void TrialKeeper::watch() {

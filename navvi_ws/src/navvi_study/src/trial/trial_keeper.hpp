@@ -221,9 +221,8 @@ void TrialKeeper::observe(const Report& report) {
   if (drops(report.stamp)) return;
   readiness_.saw(report, now_.wall());
   tracker_.observe(report);
-  for (const auto& event : monitor_.observe(report)) {
+  for (const auto& event : monitor_.observe(report))
     if (active()) record(event);
-  }
   // At once: a report that is stamped later may be the next to come.
   if (phase_ != Phase::running) return;
   if (const auto& arrival = monitor_.arrival()) {
