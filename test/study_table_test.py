@@ -4,6 +4,7 @@ import json
 import math
 import os
 import pty
+import re
 import shutil
 import signal
 import subprocess
@@ -621,6 +622,20 @@ def test_marks_stand_among_the_events_of_their_trial_at_its_own_time(work):
     files = table.write(work.study, work.study.progress(), FIGURES)
     described = json.loads((work.study.folder / "events.json").read_text())
     assert described["onset_s"]["Units"] == "s" and work.study.folder / "events.csv" in files
+
+
+def test_notes_before_between_and_after_the_legs_of_a_job_are_each_in_one_leg(tmp_path):
+    kept = job(tmp_path)
+    begin(kept, driver=Named).next("sub-01")
+    attempt, last = trial_of(kept)
+    path = last / "journal.csv"  # which begins 20 s after the end of the first
+    path.write_text(re.sub(r",(1\d{12}),", lambda found: f",{int(found[1]) + 30 * 10**9},", path.read_text()))
+    for mono, text in (990, "before"), (1002, "in the first"), (1020, "between"), (1032, "in the second"), (1050, "after"):
+        kept.note("sub-01", attempt, {"utc": "2026-01-01T00:00:00Z", "mono_ns": mono * 10**9, "type": "note", "text": text})
+    told = [(row["trial"], row["detail"]) for row in table.events(kept, kept.progress()) if row["trial_type"] == "note"]
+    first, second = attempt.legs
+    assert told == [(first, "before"), (first, "in the first"), (first, "between"), (second, "in the second"), (second, "after")]
+    assert [row["marks"] for row in table.trials(kept, kept.progress())] == ["5", "0"]
 
 
 def test_nothing_of_a_study_names_a_person_but_by_code(work):

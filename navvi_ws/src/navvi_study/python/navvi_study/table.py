@@ -99,13 +99,14 @@ def events(study, progress):
 def events_of(study, participant, attempt, trial, words=True):
     """Of one trial, in the order of their onsets.
     \\param words  with the experimenter's own"""
-    record = Record(study.attempt_folder(participant, attempt.step, attempt.number) / trial)
+    records = {leg: Record(study.attempt_folder(participant, attempt.step, attempt.number) / leg) for leg in attempt.legs}
+    begun = {leg: start.mono_ns for leg, one in records.items() if (start := one.first("TRIAL_START"))}
+    record = records[trial]
     found = record.events()
     for note in study.notes(participant):
         mine = (note["step"], note["attempt"]) == (attempt.step, attempt.number)
-        if len(attempt.legs) > 1 and not (record.rows and record.rows[0].mono_ns <= note["mono_ns"] <= record.rows[-1].mono_ns):
-            continue
-        if mine and (onset := record.onset_of(note["mono_ns"])) is not None:
+        before = [leg for leg in begun if begun[leg] <= note["mono_ns"]] or [*begun][:1]  # of a job it is of the leg that began last
+        if mine and before[-1:] == [trial] and (onset := record.onset_of(note["mono_ns"])) is not None:
             found.append({"onset_s": f"{onset:.3f}", "duration_s": "0", "wall_clock_utc": note["utc"], "trial_type": note["type"],
                           "detail": words and note["text"] or "n/a"})
     return sorted(found, key=lambda event: float(event["onset_s"]))
