@@ -218,6 +218,28 @@ def test_a_blinded_report_has_letters_and_tells_no_condition(reported):
     assert kept.plan.values() == study.Study(kept.plan).plan.values() and blinded.progress().complete(blinded.progress().person("sub-01"))
 
 
+def test_a_condition_keeps_its_letter_whatever_conditions_a_later_plan_adds_or_drops(tmp_path):
+    pair, more = "{full: {picture: false}, plain: {picture: false, touch: false}}", [f", other{at}: {{sounds: false, speech: {word}}}" for at, word in ((1, "true"), (2, "false"))]
+    listed = ("limit: 60", "limit: 60\norder: listed")
+
+    def planned(added):
+        sets = "".join(f", {'cd'[at]}: {{world: easy, seeds: [{5 + at}]}}" for at in range(len(added)))
+        return listed, (pair, pair[:-1] + "".join(added) + "}"), ("seeds: [2]}", "seeds: [2]}" + sets)
+    kept = frozen(tmp_path, *planned(more))
+    rest(begin(kept))
+    fewer = study.Study(small(tmp_path, *planned([])))
+    fewer.freeze("test", "shorter sessions")
+    blinded = fewer.blinded()
+    assert len({attempt.condition for attempt in blinded.progress().people["sub-01"].attempts} - {"n/a"}) == 4, "dropped ones are not pooled"
+    key = blinded.letters
+    for added in more[:1], more, [*more[:1], ", new: {touch: false, speech: false}"]:
+        other = study.Study(small(tmp_path, *planned(added)))
+        letters = other.blinded().letters
+        assert {name: letters[name] for name in key} == key and len(set(letters.values())) == len(letters)
+        assert study.Study(other.plan).blinded().letters == letters
+    assert sorted(letters.values()) == [*"ABCDE"] and report.page(other.blinded(), other.blinded().progress(), rehearsed=False)
+
+
 def test_a_blind_plan_names_no_condition_before_its_analysis_is_frozen(tmp_path, monkeypatch):
     monkeypatch.setitem(actions.TOOLS, "draw", lambda *words: None)
     monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")

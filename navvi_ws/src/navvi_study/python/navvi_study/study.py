@@ -137,10 +137,11 @@ class Study:
 
     def blinded(self):
         """The same study to an analyst: letters for the conditions, by a key that is drawn once and kept."""
-        path, names = self.folder / "blinding.json", sorted(condition.name for condition in self.plan.conditions)
+        path, driven = self.folder / "blinding.json", {attempt.condition for person in self.progress().people.values() for attempt in person.attempts}
         letters = json.loads(path.read_bytes()) if path.exists() else {}
-        if sorted(letters) != names:
-            letters = dict(zip(names, secrets.SystemRandom().sample(string.ascii_uppercase[:len(names)], len(names))))
+        if new := sorted({*driven, *(condition.name for condition in self.plan.conditions)} - {"n/a", *letters}):  # others keep theirs, also once dropped
+            free = sorted({*string.ascii_uppercase[:len(letters) + len(new)]} - {*letters.values()})
+            letters.update(zip(new, secrets.SystemRandom().sample(free, len(new))))
             write_safely(path, json.dumps(letters) + "\n")
 
         def renamed(one):
