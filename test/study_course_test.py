@@ -162,6 +162,24 @@ def test_check_and_freeze_say_what_happens_to_a_trial_that_breaks_off(tmp_path, 
     assert "nothing takes its place" in printed and "The same holds where result is aborted or invalid: the trial broke off." in printed
 
 
+def test_a_freeze_that_is_given_again_leaves_the_page_whose_write_has_failed(tmp_path, monkeypatch):
+    monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
+    args, page = words(study.Study(small(tmp_path)), reason=None), tmp_path / "small/preregistration.md"
+    (tmp_path / "small/preregistration.md.new").mkdir(parents=True)  # in the way of the write
+    with pytest.raises(StudyError, match="preregistration.md cannot be written: .* give the same command again"):
+        actions.freeze(args)
+    assert study.Study.of(args.plan).frozen() and not page.exists()
+    (tmp_path / "small/preregistration.md.new").rmdir()
+    with pytest.raises(StudyError, match="nothing has changed since the plan was frozen"):
+        actions.freeze(args)
+    text = page.read_text()
+    small(tmp_path, ("limit: 60", "limit: 90"))
+    page.unlink()
+    with pytest.raises(StudyError, match="a change needs --reason"):
+        actions.freeze(args)
+    assert page.read_text() == text, "of the plan that is frozen"
+
+
 def test_a_study_where_nothing_stands_is_neither_checked_nor_frozen(tmp_path, monkeypatch):
     monkeypatch.setitem(actions.TOOLS, "version", lambda: "test")
     monkeypatch.setitem(actions.TOOLS, "tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)

@@ -82,6 +82,8 @@ def freeze(args):
     from . import overview, preregistration
     study = opened(args)
     _require_runnable(study.plan)
+    if study.frozen() is not None:  # its page is missing where the disk was full after the freeze
+        preregistration.write(study)
     changes = study.freeze(TOOLS["version"](), args.reason)
     print(f"navvi: the plan is frozen: {study.plan.hash()}")
     for change in changes or []:
