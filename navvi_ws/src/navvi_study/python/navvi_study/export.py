@@ -20,7 +20,6 @@ SHARE = "share"  # item of the consent: who did not say yes to it is left out
 PARTICIPANTS = {"group": {"Description": "group of the plan"}}
 EVENTS = {"onset": {"Description": "since the trial began, simulated time", "Units": "s"}, "duration": {"Units": "s"},
           "trial_type": {"Description": "what happened, as doc/record.md lists it, or the experimenter's mark, note, intervention, pause or abort"}}
-DETAIL = "kind of a cue, or reason, state, device, result, what assistance does, how late commands come, or name of a parameter; n/a of an intruder"
 
 
 def write(study, progress, read_way):
@@ -86,7 +85,7 @@ def _trial(folder, row, attempt, run, study, read_way):
               for event in table.events_of(study, row["participant"], attempt, row["trial"], words=False)]
     _tsv(place / f"{name}_{end}_events.tsv", ["onset", "duration", "trial_type", "robot_x", "robot_y", "detail"], events)
     _json(place / f"{name}_{end}_events.json", {**EVENTS, **{f"robot_{axis}": {"Description": "of the robot in map", "Units": "m"} for axis in "xy"},
-                                                "detail": {"Description": DETAIL}})
+                                                "detail": {"Description": table.EVENTS["detail"] + "; nodes and words are n/a here"}})
 
 
 def resampled(way, rate):
