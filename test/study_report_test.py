@@ -219,7 +219,8 @@ def test_a_blinded_report_has_letters_and_tells_no_condition(reported):
 
 
 def test_a_condition_keeps_its_letter_whatever_conditions_a_later_plan_adds_or_drops(tmp_path):
-    pair, more = "{full: {picture: false}, plain: {picture: false, touch: false}}", [f", other{at}: {{sounds: false, speech: {word}}}" for at, word in ((1, "true"), (2, "false"))]
+    pair = "{full: {picture: false}, plain: {picture: false, touch: false}}"
+    more = [f", other{at}: {{sounds: false, speech: {word}}}" for at, word in ((1, "true"), (2, "false"))]
     listed = ("limit: 60", "limit: 60\norder: listed")
 
     def planned(added):

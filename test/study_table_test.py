@@ -169,7 +169,8 @@ def test_a_leg_keeps_its_place_and_task_whatever_job_a_later_plan_has(tmp_path, 
     assert [(row["leg"], row["place"], row["do"]) for row in rows[:-1]] == [(str(at + 1), *NAMED[at]) for at in range(len(results))]
     if later == "swapped":
         (tmp_path / "round.yaml").write_text("".join(reversed(text.splitlines(True))))
-    other = study.Study(small(tmp_path, *{"swapped": [JOB], "none": [], "one more": [JOB, ("b: {world: easy", "b: {jobs: round.yaml, world: easy")]}[later]))
+    more = ("b: {world: easy", "b: {jobs: round.yaml, world: easy")
+    other = study.Study(small(tmp_path, *{"swapped": [JOB], "none": [], "one more": [JOB, more]}[later]))
     other.freeze("test", later)
     assert table.trials(other, other.progress()) == rows and _drop_outs(other) == dropped
     assert report.legs(other, other.progress()) == report.legs(kept, kept.progress())

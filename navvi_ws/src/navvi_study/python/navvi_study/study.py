@@ -137,9 +137,10 @@ class Study:
 
     def blinded(self):
         """The same study to an analyst: letters for the conditions, by a key that is drawn once and kept."""
-        path, driven = self.folder / "blinding.json", {attempt.condition for person in self.progress().people.values() for attempt in person.attempts}
+        path, names = self.folder / "blinding.json", {condition.name for condition in self.plan.conditions}
+        names.update(attempt.condition for person in self.progress().people.values() for attempt in person.attempts)
         letters = json.loads(path.read_bytes()) if path.exists() else {}
-        if new := sorted({*driven, *(condition.name for condition in self.plan.conditions)} - {"n/a", *letters}):  # others keep theirs, also once dropped
+        if new := sorted(names - {"n/a", *letters}):  # all others keep theirs, also those that a plan drops
             free = sorted({*string.ascii_uppercase[:len(letters) + len(new)]} - {*letters.values()})
             letters.update(zip(new, secrets.SystemRandom().sample(free, len(new))))
             write_safely(path, json.dumps(letters) + "\n")

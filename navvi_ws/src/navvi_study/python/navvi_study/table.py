@@ -67,7 +67,7 @@ def trials(study, progress, strict=True):
                 row = {**row, **{name: cell for name, cell in summary.items() if name not in NOT_OURS}, "trial": trial}
                 if attempt.job:  # places as its record names them; those of a rehearsal have only the plan's
                     start = Record(study.attempt_folder(person.name, attempt.step, attempt.number) / trial).first("TRIAL_START")
-                    place, task = places[at][2:] if len(attempt.legs) <= len(places) else ("n/a", "n/a")  # with more legs nobody knows which led where
+                    place, task = places[at][2:] if len(attempt.legs) <= len(places) else ("n/a", "n/a")  # with more nobody knows which led where
                     told = start.fields if start else {}
                     row.update(leg=at + 1, place=told.get("job_name", place), do=told.get("job_task", task))
                 rows.append({name: str(cell) for name, cell in row.items()})

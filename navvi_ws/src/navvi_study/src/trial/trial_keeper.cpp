@@ -180,8 +180,7 @@ TrialState::State TrialKeeper::state() {
 
 void TrialKeeper::show_state() {
   TrialState now{state()};
-  if (shown_.state == now.state) return;
-  shown_.state = now.state;
+  if (std::exchange(shown_.state, now.state) == now.state) return;
   if (now.state == TrialState::State::ready && job_.here) {
     now.place = job_.places[*job_.here].name;
     now.task = job_.places[*job_.here].task;
