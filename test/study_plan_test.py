@@ -116,6 +116,7 @@ def test_orders_are_drawn_by_a_seed_that_is_kept_apart_and_not_printed_before_it
     ("{after_condition: [tlx]}", "{at_begin: [tlx], at_end: [tlx]}", "has the step s1-tlx twice"),
     ("[tlx]", "[probe]", "allowed are such items below the plan's key \"probes\""),
     ("measure: time", "measure: pointing", "does not ask probe"),
+    ("measure: time", r'measure: "\e[2J"', "is \"\N{REPLACEMENT CHARACTER}[2J\"; allowed is"),
 ])
 def test_a_wrong_plan_is_refused_with_file_key_and_what_is_allowed(tmp_path, old, new, sentence):
     with pytest.raises(StudyError) as problem:
