@@ -6,10 +6,14 @@ namespace {
 constexpr double kWayAhead = 3.0;   // m, that must be free of obstacles to keep a path
 constexpr double kNearer = 1.0;     // m, a way toward what is not seen leads nearer by so much
 constexpr double kParted = 20.0;    // s, for maps that show a way to the goal again
-constexpr double kLook = 4.0;       // s, at the end of it, for a map that shows more
+constexpr double kLook = 4.0;       // s, where what is seen ends, for a map that shows more
 constexpr double kLongLook = 12.0;  // s, likewise while such a map is being baked
 // m, beyond the robot's radius, of the straight way on past a corner
 constexpr double kSightRoom = 0.05, kEasyRoom = 0.25;
+
+bool is_unseen(Guidance::Refusal refusal) {
+  return refusal == Guidance::Refusal::not_seen || refusal == Guidance::Refusal::off_the_map;
+}
 
 std::optional<double> age_of(std::optional<double> then, double now) {
   if (!then) return std::nullopt;
@@ -356,10 +360,8 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
       // A goal that was accepted is not refused later on because of where the robot strayed, or of
       // a map that is soon made good; but one that is not seen may turn out to be none.
       if (of_map && !goal_.parted) goal_.parted = time;
-      if (reason == Guidance::Replan::new_goal ||
-          (of_map && (path_.ends_short() || plan.refusal == Guidance::Refusal::not_seen ||
-                      plan.refusal == Guidance::Refusal::off_the_map)) ||
-          (goal_.parted && time - *goal_.parted >= kParted))
+      if (reason == Guidance::Replan::new_goal || (of_map && path_.ends_short()) ||
+          (goal_.parted && time - *goal_.parted >= (is_unseen(plan.refusal) ? kLook : kParted)))
         return refuse_place(plan.refusal, plan.detail, time);
       guidance_.state = Guidance::State::no_route;
       break;
@@ -379,10 +381,10 @@ void Navigator::take_plan(const plan::Plan& plan, Guidance::Replan reason, doubl
 bool Navigator::keeps_path(const plan::Plan& plan, Guidance::Replan reason, double time) {
   const std::optional<Point> robot = position_of(observation_.last_pose());
   if (!path_.following() || !robot) return false;
-  if (path_.mode() == PathMode::retreat && observation_.obstacles_held() && !cut_off_ &&
-      reason != Guidance::Replan::map_changed)
-    return true;
   const std::vector<Cylinder> none;
+  if (path_.mode() == PathMode::retreat && observation_.obstacles_held() && !cut_off_ &&
+      path_.follower().sees_next(*robot, {map_.floor.get(), &none}))
+    return true;
   const Path remaining = path_.remaining(*robot);
   PathKeeper::Choice choice;
   choice.time = time;
