@@ -91,7 +91,7 @@ navvi_types::LinkState CommandGate::link_state(std::int64_t stamp) const {
 bool CommandGate::outrun(const Instant& now) const {
   return state_ == State::running && last_valid_ &&
          now.wall - last_valid_->wall <= config_.timeout &&
-         now.sim - last_valid_->sim > config_.timeout / 2;
+         now.sim - last_valid_->sim > 0.9 * config_.timeout;
 }
 
 void CommandGate::stop(Reason reason) {

@@ -97,15 +97,15 @@ TEST_F(Gate, is_outrun_by_a_simulation_that_is_faster_than_its_commands) {
   const auto after = [this](double wall, double sim) {
     return gate_.outrun({now_.wall + wall, now_.sim + sim});
   };
-  EXPECT_FALSE(after(0.01, 0.2)) << "before any command";
+  EXPECT_FALSE(after(0.01, 0.23)) << "before any command";
   start();
-  EXPECT_FALSE(after(0.01, 0.1));
-  EXPECT_TRUE(after(0.01, 0.15));
-  EXPECT_TRUE(after(0.24, 0.15));
-  EXPECT_FALSE(after(0.26, 0.15)) << "silence must stop the wheels";
+  EXPECT_FALSE(after(0.01, 0.22)) << "a command each 20 ms, tenfold";
+  EXPECT_TRUE(after(0.01, 0.23));
+  EXPECT_TRUE(after(0.24, 0.23));
+  EXPECT_FALSE(after(0.26, 0.23)) << "silence must stop the wheels";
   gate_.stop(CommandGate::Reason::driver_changed);
   hold(0.1, Velocity{1.0, 0.0});
-  EXPECT_FALSE(after(0.01, 0.2)) << "wheels that stand";
+  EXPECT_FALSE(after(0.01, 0.23)) << "wheels that stand";
 }
 
 TEST_F(Gate, S7_a_pause_of_ten_minutes_of_simulated_time_stops_nobody_who_is_heard) {

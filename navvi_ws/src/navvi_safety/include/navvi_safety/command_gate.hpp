@@ -102,8 +102,8 @@ class CommandGate {
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] Reason reason() const { return reason_; }
   [[nodiscard]] unsigned rejected() const { return rejected_; }
-  /// True where a robot that is driven gets its commands by the wall clock, and half of `timeout`
-  /// has passed by the clock of a simulation: one faster than real time must wait for the next.
+  /// True where a robot that is driven gets its commands by the wall clock, and `timeout` is
+  /// nearly over by the clock of a simulation: one faster than real time must wait for the next.
   [[nodiscard]] bool outrun(const Instant& now) const;
 
  private:
