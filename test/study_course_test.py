@@ -234,19 +234,22 @@ def test_a_job_that_a_session_refuses_is_neither_checked_nor_frozen_nor_rehearse
 
 
 @pytest.mark.parametrize("said", ["Do you agree to take part?", "Write to ethics@uni.example", "Our Rindfleischettikettierung"])
-def test_a_consent_that_cannot_be_spoken_is_neither_checked_nor_frozen_nor_rehearsed(tmp_path, monkeypatch, said):
-    for name, given in ("version", lambda: "test"), ("tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name):
+def test_a_consent_that_cannot_be_spoken_is_named_before_it_is_frozen_and_can_only_be_typed(tmp_path, monkeypatch, capsys, said):
+    for name, given in (("version", lambda: "test"), ("navvi", lambda *_: None),
+                        ("tool", lambda package, name: ROOT / "navvi_ws/devel/lib" / package / name)):
         monkeypatch.setitem(actions.TOOLS, name, given)
     items = "items: [{{name: agree, ask: \"{}\", choices: [\"no\", \"yes\"], required: \"yes\"}}]\ntitle: Consent\n"
     (tmp_path / "own.yaml").write_text(items.format(said))
-    args = words(study.Study(small(tmp_path, ("limit: 60", "limit: 60\nconsent: own"))), reason=None, no_worlds=False, pictures=False, only=None)
-    for action in actions.check, actions.freeze, actions.rehearse:
-        with pytest.raises(StudyError) as problem:
-            action(args)
-        assert str(problem.value).startswith(f"{tmp_path}/own.yaml: items[0]/ask cannot be spoken: \"{said}\"; allowed are letters")
-    (tmp_path / "own.yaml").write_text(items.format("Do you agree to take part"))
-    actions.freeze(args)
+    kept = study.Study(small(tmp_path, ("limit: 60", "limit: 60\nconsent: own")))
+    args = words(kept, reason=None, no_worlds=False, pictures=False, only=None)
+    for action in actions.check, actions.freeze:
+        action(args)
+        says = capsys.readouterr().out
+        assert f"{tmp_path}/own.yaml: items[0]/ask cannot be spoken: \"{said}\"; allowed are letters" in says and "next --typed" in says
     assert study.Study.of(args.plan).progress().freezes
+    with pytest.raises(StudyError, match="cannot be spoken"):
+        actions._live_session(kept, typed=False)
+    actions._live_session(kept, typed=True)
 
 
 @pytest.mark.parametrize("old, new, says", [

@@ -364,9 +364,17 @@ def _require_runnable(plan):
 
 
 def _require_files(plan):
-    """Raises StudyError for files beside the plan that a session refuses."""
-    from . import questionnaire, worlds
+    """Raises StudyError for files beside the plan that a session refuses; says which questionnaires can only be typed."""
+    from . import worlds
     worlds.require_files(plan, TOOLS.get("tool"))
+    try:
+        _require_speakable(plan)
+    except StudyError as problem:
+        print(f"navvi: {problem} So it can only be typed, by \"./navvi study next --typed\".")
+
+
+def _require_speakable(plan):
+    from . import questionnaire
     for asks in {plan.steps["consent"], *plan.asked} - {None}:
         if Path(asks.file).parent != questionnaire.SHIPPED:
             questionnaire.require_speakable(asks, TOOLS["tool"]("navvi_feedback", "feedback_node"))
@@ -375,6 +383,8 @@ def _require_files(plan):
 def _live_session(study, typed):
     from .runner import LiveRunner
     from .session import Session
+    if not typed:
+        _require_speakable(study.plan)
     runner = LiveRunner(study, TOOLS["navvi"], TOOLS["tool"]("navvi_study", "close_trials"), typed)
     return Session(study, runner, wait=study.plan.operator != "simulated")
 
