@@ -46,6 +46,8 @@ import pytest
 
 from sessions import DARK, ROOT, heed_ctrl_c, navvi, within
 
+LONG = 100000 + os.getpid()  # s, slept by no other run of these tests
+
 pytestmark = pytest.mark.accessibility
 COMMANDS = sorted(path.stem for path in (ROOT / "navvi_cli/commands").glob("*.py"))
 
@@ -214,29 +216,29 @@ def test_a_command_that_fails_after_a_while_fails(tmp_path):
 
 
 def test_ctrl_c_ends_long_work_within_two_seconds_and_says_so(tmp_path):
-    process = bash(f'root=/ workspace=/\nslow() {{ sleep 987 & sleep 987; }}; with_progress x "{tmp_path}/log" built_percent slow')
+    process = bash(f'root=/ workspace=/\nslow() {{ sleep {LONG} & sleep {LONG}; }}; with_progress x "{tmp_path}/log" built_percent slow')
     time.sleep(1)
     os.killpg(process.pid, signal.SIGINT)
     begin = time.monotonic()
     said = process.communicate(timeout=20)[0]
     assert time.monotonic() - begin < 2
     assert process.returncode == 130 and said.startswith("navvi: stopped by Ctrl-C")
-    assert subprocess.run(["pgrep", "-fx", "sleep 987"]).returncode == 1, "nothing is left running"
+    assert subprocess.run(["pgrep", "-fx", f"sleep {LONG}"]).returncode == 1, "nothing is left running"
 
 
 def test_a_command_that_is_killed_leaves_no_work_behind(tmp_path):
     code = (f"import sys; sys.path.insert(0, {str(ROOT)!r}); from navvi_cli import workspace; "
             f"workspace.SHELL = {str(tmp_path / 'shell')!r}; workspace.shell('x')")
     (tmp_path / "shell").write_text(BASH.replace("set -euo", "#!/bin/bash\nset -euo") +
-                                    f'root=/ workspace=/\nslow() {{ sleep 986 & sleep 986; }}; with_progress x "{tmp_path}/log" built_percent slow')
+                                    f'root=/ workspace=/\nslow() {{ sleep {LONG}.5 & sleep {LONG}.5; }}; with_progress x "{tmp_path}/log" built_percent slow')
     (tmp_path / "shell").chmod(0o755)
     process = subprocess.Popen(["/usr/bin/python3", "-c", code], stderr=subprocess.DEVNULL)
     time.sleep(2)
-    assert subprocess.run(["pgrep", "-fx", "sleep 986"], stdout=subprocess.DEVNULL).returncode == 0
+    assert subprocess.run(["pgrep", "-fx", f"sleep {LONG}.5"], stdout=subprocess.DEVNULL).returncode == 0
     process.kill()
     process.wait()
     time.sleep(2)
-    assert subprocess.run(["pgrep", "-fx", "sleep 986"]).returncode == 1, "something is left running"
+    assert subprocess.run(["pgrep", "-fx", f"sleep {LONG}.5"]).returncode == 1, "something is left running"
 
 
 def test_ctrl_c_ends_a_session_soon_and_says_so(session, tmp_path, record_property):

@@ -44,6 +44,8 @@ def results(ctest, folder):
         if outcome == "failed" and (not written or not any(o == "failed" for path in written for _, o, _, _ in cases(path))):
             if not (failed and "rostest" in name):
                 yield name, outcome, reason, seconds
+        elif outcome == "skipped" and not written:  # left out by run_tests.py; else it could not be run, as while it is being built
+            yield name, "skipped" if reason.startswith("other programs") else "failed", reason, seconds
 
 
 def result_file(program):

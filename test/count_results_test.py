@@ -15,6 +15,7 @@ from sessions import ROOT
 SCRIPT = ROOT / "test/count_results.py"
 PASSED = '<testsuite><testcase name="navvi_sim/live/world" classname="navvi_sim/live/world" status="run"/></testsuite>'
 FAILED = '<testsuite><testcase name="navvi_sim/live/world" classname="navvi_sim/live/world"><failure/><system-out>signal 11</system-out></testcase></testsuite>'
+NOT_RUN = PASSED.replace("</testsuite>", '<testcase name="navvi_sim/live/hall" status="notrun"><skipped message="{}"/></testcase></testsuite>')
 
 
 @pytest.fixture
@@ -41,6 +42,10 @@ def run(tmp_path):
     pytest.param(FAILED, {}, 1, ["0 passed, 1 failed", "  signal 11"], id="a_crash_without_a_result_is_a_failure"),
     pytest.param(FAILED, {"world": '<testsuite><testcase name="a"/></testsuite>'}, 1, ["1 passed, 1 failed"], id="a_crash_after_tests_that_passed_is_a_failure"),
     pytest.param(PASSED, {"world": '<testsuite><testcase name="a"/></testsuite>'}, 0, ["1 passed, 0 failed"], id="all_passed_ends_well"),
+    pytest.param(NOT_RUN.format("Unable to find executable"), {"world": '<testsuite><testcase name="a"/></testsuite>'},
+                 1, ["1 passed, 1 failed", "  Unable to find executable"], id="what_could_not_be_run_is_a_failure"),
+    pytest.param(NOT_RUN.format("other programs held 90% of this machine"), {"world": '<testsuite><testcase name="a"/></testsuite>'},
+                 0, ["1 passed, 0 failed, 1 skipped"], id="what_is_left_out_is_counted"),
 ])
 def test_the_last_line_counts_what_came_of_the_programs(run, ctest, written, code, said):
     ended, lines = run(ctest, **written)

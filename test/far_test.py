@@ -12,6 +12,7 @@ import pytest
 
 import far
 from clock import Clock
+from conftest import free_port
 from sessions import ROOT, WORLD, eventually, summary, within
 
 pytestmark = pytest.mark.skipif(not far.is_possible(), reason="network namespaces and TUN devices need the rights of root")
@@ -219,6 +220,7 @@ def test_C10_a_cut_stops_the_wheels_and_no_command_of_before_moves_them_after_it
 
 
 def test_a_robot_that_is_not_there_ends_in_a_sentence():
-    run = subprocess.run(["./navvi", "run", "robot:=127.0.0.1:11399", "operator:=simulated", "rviz:=false"], cwd=ROOT, capture_output=True,
+    port = free_port()
+    run = subprocess.run(["./navvi", "run", f"robot:=127.0.0.1:{port}", "operator:=simulated", "rviz:=false"], cwd=ROOT, capture_output=True,
                          text=True, timeout=600)
-    assert run.returncode == 2 and re.search("no ROS master answers at 127.0.0.1, port 11399", run.stderr), run.stderr
+    assert run.returncode == 2 and re.search("no ROS master answers at 127.0.0.1, port " + str(port), run.stderr), run.stderr

@@ -125,9 +125,11 @@ def twin_of(begun, node):
     """Another program by the name of one of the session's nodes."""
     program = subprocess.Popen(["/usr/bin/python3", "-c", f"import rospy; rospy.init_node('{node}'); rospy.spin()"],
                                env=dict(os.environ, ROS_MASTER_URI=begun.uri, ROS_IP="127.0.0.1"))
-    yield program
-    program.kill()
-    program.wait()
+    try:
+        yield program
+    finally:
+        program.kill()
+        program.wait()
 
 
 @pytest.mark.parametrize("node, words", [("trial_node", []), ("sim_node", []), ("perception_node", ["sensing:=lidar"])])

@@ -184,8 +184,13 @@ class Command(Programs):
 
     def __exit__(self, *given):
         self.end()
-        self.process.wait(30)
-        super().__exit__(*given)
+        try:
+            self.process.wait(30)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.process.pid, signal.SIGKILL)
+            raise
+        finally:
+            super().__exit__(*given)
 
 
 class Session(Command):
