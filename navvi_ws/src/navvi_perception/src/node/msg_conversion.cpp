@@ -179,6 +179,7 @@ sensor_msgs::LaserScan with_clear_rays(sensor_msgs::LaserScan scan) {
 
 void add_points(const sensor_msgs::LaserScan& scan, const sensor_msgs::PointCloud2& cloud,
                 sight::Sight& sight) {
+  if (cloud.data.empty()) return;  // of which the iterators point nowhere
   sensor_msgs::PointCloud2ConstIterator<float> x(cloud, "x"), y(cloud, "y"), z(cloud, "z");
   sensor_msgs::PointCloud2ConstIterator<std::int32_t> index(cloud, "index");
   for (std::size_t i = 0; i < std::size_t{cloud.width} * cloud.height;

@@ -35,6 +35,7 @@ sensor_msgs::PointCloud2 cloud(const std::vector<Eigen::Vector3f>& points) {
   sensor_msgs::PointCloud2Modifier modifier(msg);
   modifier.setPointCloud2FieldsByString(1, "xyz");
   modifier.resize(points.size());
+  if (points.empty()) return msg;
   sensor_msgs::PointCloud2Iterator<float> x(msg, "x");
   for (const Eigen::Vector3f& point : points) {
     for (int i = 0; i < 3; ++i) x[i] = point[i];
@@ -183,6 +184,16 @@ TEST(MsgConversion, takes_a_cloud_in_which_nothing_is_seen) {
     msg.row_step = 7;
     EXPECT_EQ(from_msg(msg).has_value(), msg.width == 0) << "no points need no fields";
   }
+}
+
+TEST(MsgConversion, takes_a_scan_none_of_whose_rays_is_a_point) {
+  sensor_msgs::PointCloud2 none;
+  sensor_msgs::PointCloud2Modifier modifier(none);
+  constexpr auto kFloat = sensor_msgs::PointField::FLOAT32, kInt = sensor_msgs::PointField::INT32;
+  modifier.setPointCloud2Fields(4, "x", 1, kFloat, "y", 1, kFloat, "z", 1, kFloat, "index", 1, kInt);
+  sight::Sight sight;
+  add_points(scan(), none, sight);
+  EXPECT_TRUE(sight.hits.empty() && sight.clear.empty());
 }
 
 TEST(MsgConversion, drops_a_cloud_that_is_not_whole) {
